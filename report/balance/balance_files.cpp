@@ -7,7 +7,7 @@
 #include "common/rotational_speed.hpp"
 #include "report/svg/figure.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 namespace {
 
 using namespace balancing;
@@ -141,4 +141,4 @@ void WriteBalancePicture(const std::string& path, const BalanceRequest& request,
   svg::Write(path, figure);
 }
 
-}  // namespace levitas::cli
+}  // namespace levitas::report

@@ -7,7 +7,7 @@
 
 #include "identification/balance/balance.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 
 [[nodiscard]] std::string BalanceText(const balancing::BalanceRequest& request,
                                       const balancing::BalanceResult& result);
@@ -17,4 +17,4 @@ namespace levitas::cli {
 void WriteBalancePicture(const std::string& path, const balancing::BalanceRequest& request,
                          const balancing::BalanceResult& result);
 
-}  // namespace levitas::cli
+}  // namespace levitas::report

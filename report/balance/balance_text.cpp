@@ -7,7 +7,7 @@
 #include "report/balance/balance_files.hpp"
 #include "report/text/text_table.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 namespace {
 
 using namespace balancing;
@@ -181,4 +181,4 @@ std::string BalanceText(const BalanceRequest& request, const BalanceResult& resu
   return text;
 }
 
-}  // namespace levitas::cli
+}  // namespace levitas::report

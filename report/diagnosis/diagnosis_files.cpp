@@ -8,8 +8,9 @@
 #include "diagnosis/report/advice.hpp"
 #include "diagnosis/report/report_text.hpp"
 #include "report/diagnosis/diagnosis_page.hpp"
+#include "report/diagnosis/old_keys.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 
 using diagnosis::DiagnosisReport;
 
@@ -57,13 +58,14 @@ nlohmann::ordered_json CalibratedJson(const DiagnosisReport& report) {
 }
 
 nlohmann::ordered_json FitJson(const DiagnosisReport& report) {
+  const diagnosis::ReportFit& validation = report.validation;
   return {{"before", report.fitted.nominal_percent},
           {"calibrated", report.fitted.calibrated_percent},
           {"after", report.fitted.extended_percent},
-          {"holdout_before", report.validation.nominal_percent},
-          {"holdout_calibrated", report.validation.calibrated_percent},
-          {"holdout_after", report.validation.extended_percent},
-          {"ceiling", report.validation.ceiling_percent}};
+          {"validation_before", validation.nominal_percent},
+          {"validation_calibrated", validation.calibrated_percent},
+          {"validation_after", validation.extended_percent},
+          {"ceiling", validation.ceiling_percent}};
 }
 
 /// JSON has no infinity.
@@ -92,7 +94,7 @@ nlohmann::ordered_json CandidatesJson(const DiagnosisReport& report) {
     if (std::isfinite(c.evidence_nat)) entry["score"] = c.evidence_nat;
     entry["refitted"] = c.refitted;
     entry["reason"] = c.reason;
-    if (c.validation_nat) entry["held_out_nat"] = *c.validation_nat;
+    if (c.validation_nat) entry["validation_nat"] = *c.validation_nat;
     json.push_back(entry);
   }
   return json;
@@ -131,7 +133,7 @@ nlohmann::ordered_json ErrorSharesJson(const std::vector<diagnosis::ReportErrorS
 void AddRuns(const DiagnosisReport& report, nlohmann::ordered_json& json) {
   json["ties"] = nlohmann::ordered_json::object();
   for (const diagnosis::ReportTie& tie : report.ties) json["ties"][tie.cause] = tie.others;
-  json["runs_held_out"] = RunsJson(report.validation_runs);
+  json["runs_validation"] = RunsJson(report.validation_runs);
   json["runs_fitted"] = RunsJson(report.fitted_runs);
 }
 
@@ -289,6 +291,7 @@ nlohmann::ordered_json DiagnosisJson(const DiagnosisReport& report) {
   AddAdvice(report, json);
   json["origin"] = OriginJson(report.origin);
   if (!report.fitted_runs.empty()) AddRuns(report, json);
+  AddOldKeys(json);
   return json;
 }
 
@@ -302,4 +305,4 @@ std::vector<std::string> WriteDiagnosis(const DiagnosisReport& report, const std
   return paths;
 }
 
-}  // namespace levitas::cli
+}  // namespace levitas::report

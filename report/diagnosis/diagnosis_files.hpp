@@ -9,7 +9,7 @@
 
 #include "diagnosis/report/diagnosis_report.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 
 [[nodiscard]] nlohmann::ordered_json DiagnosisJson(const diagnosis::DiagnosisReport& report);
 /// Its `forecast`; what is not finite is null.
@@ -18,4 +18,4 @@ namespace levitas::cli {
 std::vector<std::string> WriteDiagnosis(const diagnosis::DiagnosisReport& report,
                                         const std::string& folder);
 
-}  // namespace levitas::cli
+}  // namespace levitas::report

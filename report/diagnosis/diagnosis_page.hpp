@@ -9,8 +9,8 @@
 
 #include "diagnosis/report/diagnosis_report.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 
 [[nodiscard]] std::string DiagnosisPage(const diagnosis::DiagnosisReport& report);
 
-}  // namespace levitas::cli
+}  // namespace levitas::report

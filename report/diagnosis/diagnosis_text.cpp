@@ -13,7 +13,7 @@
 #include "diagnosis/report/report_text.hpp"
 #include "report/text/text_table.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 namespace {
 
 using diagnosis::CalibratedValue;
@@ -294,4 +294,4 @@ void PrintDiagnosis(const DiagnosisReport& s, bool complete) {
   for (const std::string& sentence : s.levitation.sentences) fmt::print("\n{}\n", sentence);
 }
 
-}  // namespace levitas::cli
+}  // namespace levitas::report

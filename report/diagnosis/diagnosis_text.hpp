@@ -10,7 +10,7 @@
 
 #include "diagnosis/report/diagnosis_report.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 
 /// `complete`: every calibrated value and every candidate.
 void PrintDiagnosis(const diagnosis::DiagnosisReport& report, bool complete);
@@ -41,4 +41,4 @@ struct SharedParameter {
 /// neither does.
 [[nodiscard]] std::string FitRemarks(const diagnosis::DiagnosisReport& report);
 
-}  // namespace levitas::cli
+}  // namespace levitas::report

@@ -7,13 +7,15 @@
 #include <limits>
 
 #include "diagnosis/report/forecast_text.hpp"
+#include "report/html/table.hpp"
 #include "report/svg/figure.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 namespace {
 
 using diagnosis::ReportForecast;
 using diagnosis::ReportForeseen;
+using html::Kind;
 
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 
@@ -75,22 +77,24 @@ std::string Picture(const ReportForecast& forecast) {
 
 const char* Covered(const ReportForeseen& foreseen) {
   if (foreseen.covered) return "covered";
-  return foreseen.measured < foreseen.low ? "<b>below</b>" : "<b>above</b>";
+  return foreseen.measured < foreseen.low ? "below" : "above";
 }
 
 std::string Table(const ReportForecast& forecast) {
-  std::string rows;
+  html::Table table({{"rpm", Kind::kNumber},
+                     {"residual expected, µm rms", Kind::kNumber},
+                     {"measured", Kind::kNumber},
+                     {},
+                     {"fit expected, %", Kind::kNumber},
+                     {"measured", Kind::kNumber}});
   for (const ReportForecast::Band& band : forecast.by_speed) {
-    rows += fmt::format(
-        "<tr><td class=n>{:.0f} to {:.0f}</td><td class=n>{}</td><td class=n>{:.4g}</td><td>{}</td>"
-        "<td class=n>{}</td><td class=n>{:.1f}</td></tr>\n",
-        band.from_rpm, band.to_rpm, diagnosis::RangeText(band.residual_um, 4),
-        band.residual_um.measured, Covered(band.residual_um),
-        diagnosis::RangeText(band.fit_percent, 3), band.fit_percent.measured);
+    table.Add({fmt::format("{:.0f} to {:.0f}", band.from_rpm, band.to_rpm),
+               diagnosis::RangeText(band.residual_um, 4),
+               fmt::format("{:.4g}", band.residual_um.measured), Covered(band.residual_um),
+               diagnosis::RangeText(band.fit_percent, 3),
+               fmt::format("{:.1f}", band.fit_percent.measured)});
   }
-  return "<table><tr><th>rpm</th><th>residual expected, µm rms</th><th>measured</th><th></th>"
-         "<th>fit expected, %</th><th>measured</th></tr>\n" +
-         rows + "</table>\n";
+  return table.Html();
 }
 
 }  // namespace
@@ -107,4 +111,4 @@ std::string ForecastSection(const diagnosis::DiagnosisReport& s) {
       100.0 * s.forecast->better_than_file, Picture(*s.forecast), Table(*s.forecast));
 }
 
-}  // namespace levitas::cli
+}  // namespace levitas::report

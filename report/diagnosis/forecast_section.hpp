@@ -10,9 +10,9 @@
 
 #include "diagnosis/report/diagnosis_report.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 
 /// HTML with its heading; empty where no validation records were given.
 [[nodiscard]] std::string ForecastSection(const diagnosis::DiagnosisReport& report);
 
-}  // namespace levitas::cli
+}  // namespace levitas::report

@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "diagnosis/report/advice.hpp"
-#include "report/svg/escaped_text.hpp"
+#include "report/html/escaped_text.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 namespace {
 
 using diagnosis::DiagnosisReport;
@@ -103,7 +103,7 @@ class Sketch {
       text += fmt::format(
           "<path d=\"M{0:.1f} {1:.1f}l5 10h-10z\" fill=\"#2ca02c\"/>\n"
           "<text x=\"{2:.1f}\" y=\"{3:.1f}\" text-anchor=\"middle\">{4}</text>\n",
-          sensor, surface, x, axis_y_ + radius + kMagnetHeight + 14.0, svg::Escaped(bearing.name));
+          sensor, surface, x, axis_y_ + radius + kMagnetHeight + 14.0, html::Escaped(bearing.name));
     }
     return text;
   }
@@ -152,7 +152,7 @@ class Sketch {
           "stroke-width=\"2\"/><text x=\"{7:.1f}\" y=\"{8:.1f}\" text-anchor=\"middle\" "
           "fill=\"{3}\" font-weight=\"bold\">{9}</text>\n",
           x, y + 4.0, tip - 8.0, kSketchRed, tip, axis_y_, RadiusAt(mark.z_m) + 7.0, at, y,
-          svg::Escaped(shown));
+          html::Escaped(shown));
     }
     return text;
   }
@@ -170,4 +170,4 @@ std::string RotorSketch(const DiagnosisReport& report) {
   return Sketch(report).Draw();
 }
 
-}  // namespace levitas::cli
+}  // namespace levitas::report

@@ -11,9 +11,9 @@
 
 #include "diagnosis/report/diagnosis_report.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 
 /// One SVG element; names are shown as text whatever they hold.
 [[nodiscard]] std::string RotorSketch(const diagnosis::DiagnosisReport& report);
 
-}  // namespace levitas::cli
+}  // namespace levitas::report

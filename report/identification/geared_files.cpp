@@ -11,7 +11,7 @@
 #include "common/two_pi.hpp"
 #include "report/svg/figure.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 namespace {
 
 using namespace identification;
@@ -159,4 +159,4 @@ void WriteGearedPicture(const std::string& path, const std::vector<GearedLine>& 
   svg::Write(path, figure);
 }
 
-}  // namespace levitas::cli
+}  // namespace levitas::report

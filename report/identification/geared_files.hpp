@@ -10,7 +10,7 @@
 #include "identification/geared/full_spectrum.hpp"
 #include "identification/geared/half_spectrum.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 
 [[nodiscard]] nlohmann::ordered_json GearedJson(const identification::GearedParameters& found);
 /// Couplings and lines of the measured torsion.
@@ -22,4 +22,4 @@ void WriteGearedPicture(const std::string& path,
                         const std::vector<identification::GearedLine>& lines,
                         const identification::HalfSpectrum& half = {});
 
-}  // namespace levitas::cli
+}  // namespace levitas::report

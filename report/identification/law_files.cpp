@@ -6,7 +6,7 @@
 
 #include "report/svg/figure.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 namespace {
 
 using identification::LawFit;
@@ -70,4 +70,4 @@ void WriteLawPicture(const std::string& path, const std::vector<LawFit>& fits) {
   svg::Write(path, figure);
 }
 
-}  // namespace levitas::cli
+}  // namespace levitas::report

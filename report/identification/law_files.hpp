@@ -8,10 +8,10 @@
 
 #include "identification/law/law_fit.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 
 [[nodiscard]] nlohmann::ordered_json LawJson(const std::vector<identification::LawFit>& fits);
 /// Magnitude and phase, measured and fitted, a column per controller; nothing for an empty path.
 void WriteLawPicture(const std::string& path, const std::vector<identification::LawFit>& fits);
 
-}  // namespace levitas::cli
+}  // namespace levitas::report

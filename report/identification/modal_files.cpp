@@ -10,7 +10,7 @@
 #include "report/identification/response_files.hpp"
 #include "report/svg/figure.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 namespace {
 
 using namespace identification;
@@ -172,8 +172,8 @@ std::vector<std::string> WriteModalPictures(const std::string& prefix, const Mod
   return written;
 }
 
-void WriteRigFile(const std::string& path, const config::RigFile& rig) {
-  WriteWholeFile(path, config::WriteRig(rig));
+void WriteRigFile(const std::string& path, const configuration::RigFile& rig) {
+  WriteWholeFile(path, configuration::WriteRig(rig));
 }
 
-}  // namespace levitas::cli
+}  // namespace levitas::report

@@ -10,7 +10,7 @@
 #include "configuration/rig_file.hpp"
 #include "identification/modal/decibel_fit.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 
 [[nodiscard]] nlohmann::ordered_json ModalJson(const identification::ModalResult& result);
 [[nodiscard]] nlohmann::ordered_json DecibelJson(const identification::ModalResult& result,
@@ -22,6 +22,6 @@ std::vector<std::string> WriteModalPictures(
     const std::string& prefix, const identification::ModalResult& result,
     const std::vector<identification::FrequencyResponse>& responses);
 
-void WriteRigFile(const std::string& path, const config::RigFile& rig);
+void WriteRigFile(const std::string& path, const configuration::RigFile& rig);
 
-}  // namespace levitas::cli
+}  // namespace levitas::report

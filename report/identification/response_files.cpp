@@ -14,7 +14,7 @@
 #include "identification/frf/measured_sensitivity.hpp"
 #include "report/svg/figure.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 namespace {
 
 using Index = Eigen::Index;
@@ -289,4 +289,4 @@ void WriteBode(const std::string& path, const FrequencyResponse& r, const ModelL
   svg::Write(path, figure);
 }
 
-}  // namespace levitas::cli
+}  // namespace levitas::report

@@ -10,7 +10,7 @@
 
 #include "identification/frf/frequency_response.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 
 using identification::FrequencyResponse;
 
@@ -27,4 +27,4 @@ using ModelLines = std::vector<Eigen::MatrixXcd>;
 void WriteBode(const std::string& path, const FrequencyResponse& response,
                const ModelLines& model = {});
 
-}  // namespace levitas::cli
+}  // namespace levitas::report

@@ -27,7 +27,7 @@ double TopHz(const analysis::Campbell& campbell) {
   return 1.08 * top;
 }
 
-svg::Panel CampbellOfRig(const config::RigFile& rig, const analysis::Campbell& campbell) {
+svg::Panel CampbellOfRig(const configuration::RigFile& rig, const analysis::Campbell& campbell) {
   const bool several = !rig.plant.shafts.empty();
   CampbellLook look{
       several ? "Campbell diagram: damped modes, magnets without current; speed of the first shaft"
@@ -84,7 +84,7 @@ void AddShaft(const rotor::RotorConfig& rotor, svg::Panel& panel) {
   }
 }
 
-void AddPlanes(const config::RigFile& rig, const RotorFigures& figures, double height,
+void AddPlanes(const configuration::RigFile& rig, const RotorFigures& figures, double height,
                svg::Panel& panel) {
   svg::Series magnets{.name = "magnet", .colour = kMagnet, .width = 2.5};
   svg::Series probes{.name = "probe", .colour = kProbe, .width = 1.2, .dashes = "2 3"};
@@ -122,7 +122,7 @@ void AddShapes(const RotorFigures& figures, svg::Panel& panel) {
   }
 }
 
-svg::Range AlongShaft(const config::RigFile& rig, const RotorFigures& figures) {
+svg::Range AlongShaft(const configuration::RigFile& rig, const RotorFigures& figures) {
   std::vector<double> z{kMm * figures.centre_z_m};
   for (const auto& bearing : rig.plant.bearings) {
     z.insert(z.end(), {kMm * bearing.actuator_z_m, kMm * bearing.sensor_z_m});
@@ -138,7 +138,7 @@ svg::Range AlongShaft(const config::RigFile& rig, const RotorFigures& figures) {
   return {*low - room, *high + room};
 }
 
-svg::Panel ShapesPanel(const config::RigFile& rig, const RotorFigures& figures) {
+svg::Panel ShapesPanel(const configuration::RigFile& rig, const RotorFigures& figures) {
   constexpr double kHeight = 1.45;
   svg::Panel panel{.title = figures.shapes.empty()
                                 ? "The rotor and its bearings"
@@ -173,7 +173,7 @@ svg::Panel ShapesPanel(const config::RigFile& rig, const RotorFigures& figures) 
 
 }  // namespace
 
-svg::Figure ModesPicture(const config::RigFile& rig, const analysis::Campbell& campbell,
+svg::Figure ModesPicture(const configuration::RigFile& rig, const analysis::Campbell& campbell,
                          const std::optional<RotorFigures>& figures) {
   svg::Figure figure{.title = "Rig " + rig.numbers.name, .panel_width = 900, .panel_height = 400};
   figure.panels.push_back(CampbellOfRig(rig, campbell));

@@ -17,7 +17,7 @@
 namespace levitas::report {
 
 /// `figures` is empty for a rig of several shafts.
-[[nodiscard]] svg::Figure ModesPicture(const config::RigFile& rig,
+[[nodiscard]] svg::Figure ModesPicture(const configuration::RigFile& rig,
                                        const analysis::Campbell& campbell,
                                        const std::optional<analysis::RotorFigures>& figures);
 

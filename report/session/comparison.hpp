@@ -14,7 +14,7 @@
 
 #include "analysis/synchronous.hpp"
 #include "configuration/rig_file.hpp"
-#include "session/recording.hpp"
+#include "session/exchange/recording.hpp"
 
 namespace levitas::report {
 
@@ -22,7 +22,7 @@ namespace levitas::report {
 struct RecordToCompare {
   std::string label;  ///< short, of its own among the records
   std::string path;
-  config::RigFile rig;
+  configuration::RigFile rig;
   std::string controller;  ///< name; empty: the record says none
   double standstill_rad_per_s{1.0};
   session::Recording recording;

@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "common/rotational_speed.hpp"
+#include "report/html/elements.hpp"
+#include "report/html/escaped_text.hpp"
+#include "report/html/table.hpp"
 #include "report/session/page_parts.hpp"
-#include "report/svg/escaped_text.hpp"
 
 namespace levitas::report {
 namespace {
@@ -26,28 +28,20 @@ std::string AgainstCircle(const Comparison& c, double circle_um) {
       }
     }
     const bool inside = largest_um <= circle_um;
-    html += fmt::format(
-        "<p class='verdict{}'>{}: largest radius {:.1f} µm at {:.0f} rpm, {} the circle of {:g} "
-        "µm</p>\n",
-        inside ? " good" : "", svg::Escaped(record.label), largest_um, at_rpm,
-        inside ? "inside" : "outside", circle_um);
+    html += html::Paragraph(
+        fmt::format("{}: largest radius {:.1f} µm at {:.0f} rpm, {} the circle of {:g} µm",
+                    record.label, largest_um, at_rpm, inside ? "inside" : "outside", circle_um),
+        inside ? "verdict good" : "verdict");
   }
   return html;
 }
 
 std::string WhatIsCompared(const Comparison& c) {
-  std::string html =
-      "<div class=scroll><table>\n<tr><th>record</th><th>file</th><th>rig</th>"
-      "<th>controller</th><th>damage</th></tr>\n";
+  html::Table table({{"record"}, {"file"}, {"rig"}, {"controller"}, {"damage"}});
   for (const ComparedRecord& record : c.records) {
-    html += "<tr>";
-    for (const std::string* text :
-         {&record.label, &record.path, &record.rig, &record.controller, &record.damage}) {
-      html += "<td>" + svg::Escaped(*text) + "</td>";
-    }
-    html += "</tr>\n";
+    table.Add({record.label, record.path, record.rig, record.controller, record.damage});
   }
-  return html + "</table></div>\n";
+  return table.Scrolling();
 }
 
 }  // namespace
@@ -57,7 +51,7 @@ std::string ComparisonPage(const Comparison& comparison, const std::string& tabl
   std::string html = PageStart("Recorded runs side by side");
   if (circle_um > 0.0) html += AgainstCircle(comparison, circle_um);
   html += WhatIsCompared(comparison) + Gallery(ComparisonPictures(comparison, circle_um));
-  html += "<h2>Synchronous amplitudes</h2>\n<div class=scroll><pre>" + svg::Escaped(table) +
+  html += "<h2>Synchronous amplitudes</h2>\n<div class=scroll><pre>" + html::Escaped(table) +
           "</pre></div>\n";
   return html + PageEnd();
 }

@@ -5,15 +5,17 @@
 #include <ctime>
 
 #include "common/rotational_speed.hpp"
+#include "report/html/elements.hpp"
+#include "report/html/table.hpp"
 #include "report/session/page_parts.hpp"
 #include "report/session/verdict_section.hpp"
-#include "report/svg/escaped_text.hpp"
 #include "verdict/report.hpp"
 
 namespace levitas::report {
 namespace {
 
-using svg::Escaped;
+using html::Folded;
+using html::Kind;
 
 std::string Utc(std::int64_t time_ns) {
   const auto seconds = static_cast<std::time_t>(time_ns / 1'000'000'000);
@@ -23,65 +25,57 @@ std::string Utc(std::int64_t time_ns) {
                      utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec);
 }
 
-std::string Row(const std::string& name, const std::string& value) {
-  if (value.empty()) return {};
-  return fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", Escaped(name), Escaped(value));
-}
-
 std::string Identity(const Recording& r, const PageInput& input) {
   const session::SessionHeader& header = r.header;
   const double seconds = r.TimeOf(r.size() - 1) + r.rig.period_s();
-  return "<div class=scroll><table>\n" + Row("session", input.session_path) +
-         Row("recorded", Utc(header.start_utc_ns)) +
-         Row("run", fmt::format("{:.2f} s at {:g} kHz, {}, seed {}, {}", seconds,
-                                1e-3 / r.rig.period_s(), header.pace, header.seed, header.source)) +
-         Row("top speed", fmt::format("{:.0f} rpm", RadPerSToRpm(r.top_speed_rad_per_s))) +
-         Row("machine", header.machine) + Row("program", header.program_version) +
-         Row("excerpt of", header.excerpt_of) + Row("damage", r.damage) + "</table></div>\n";
+  html::Table table({{"", Kind::kKey}, {}});
+  const auto add = [&table](const char* name, const std::string& value) {
+    if (!value.empty()) table.Add({name, value});
+  };
+  add("session", input.session_path);
+  add("recorded", Utc(header.start_utc_ns));
+  add("run", fmt::format("{:.2f} s at {:g} kHz, {}, seed {}, {}", seconds, 1e-3 / r.rig.period_s(),
+                         header.pace, header.seed, header.source));
+  add("top speed", fmt::format("{:.0f} rpm", RadPerSToRpm(r.top_speed_rad_per_s)));
+  add("machine", header.machine);
+  add("program", header.program_version);
+  add("excerpt of", header.excerpt_of);
+  add("damage", r.damage);
+  return table.Scrolling();
 }
 
 std::string Events(const Recording& r) {
-  std::string rows;
+  html::Table table({{"time, s", Kind::kNumber}, {}});
   for (const session::Event& event : r.events) {
     const double time_s =
         (static_cast<double>(event.cycle) - static_cast<double>(r.cycle.front())) *
         r.rig.period_s();
     const bool trip = event.severity == session::Event::Severity::kTrip;
-    rows += fmt::format("<tr{}><td class=n>{:.3f}</td><td>{}</td></tr>\n",
-                        trip ? " class=trip" : "", time_s, Escaped(event.text));
+    table.Add({fmt::format("{:.3f}", time_s), event.text}, trip ? "trip" : "");
   }
-  if (rows.empty()) return "<h2 id=events>Events</h2>\n<p>None.</p>\n";
-  return "<h2 id=events>Events</h2>\n<div class=scroll><table>\n<tr><th class=n>time, "
-         "s</th><th></th></tr>\n" +
-         rows + "</table></div>\n";
+  return "<h2 id=events>Events</h2>\n" + (table.empty() ? "<p>None.</p>\n" : table.Scrolling());
 }
 
 std::string Timing(const Recording& r, const PageInput& input) {
-  std::string html = fmt::format(
+  const std::string html = fmt::format(
       "<h2 id=timing>Timing</h2>\n<p>{} cycles recorded; {} periods skipped, {} cycles without a "
       "new sensor "
       "frame.</p>\n",
       r.records, r.missed_deadlines, r.without_frame);
-  if (input.durations.empty()) return html;
-  html +=
-      "<div class=scroll><table>\n<tr><th>duration</th><th class=n>count</th><th class=n>p50, "
-      "µs</th><th class=n>p99, µs</th><th class=n>p99.9, µs</th><th class=n>largest, "
-      "µs</th></tr>\n";
+  html::Table table({{"duration"},
+                     {"count", Kind::kNumber},
+                     {"p50, µs", Kind::kNumber},
+                     {"p99, µs", Kind::kNumber},
+                     {"p99.9, µs", Kind::kNumber},
+                     {"largest, µs", Kind::kNumber}});
+  const auto us = [](auto nanoseconds) {
+    return fmt::format("{:.2f}", static_cast<double>(nanoseconds) * 1e-3);
+  };
   for (const verdict::DurationFigures& d : input.durations) {
-    html += fmt::format(
-        "<tr><td>{}</td><td class=n>{}</td><td class=n>{:.2f}</td><td class=n>{:.2f}</td><td "
-        "class=n>{:.2f}</td><td class=n>{:.2f}</td></tr>\n",
-        Escaped(d.name), d.count, d.p50_ns * 1e-3, d.p99_ns * 1e-3, d.p999_ns * 1e-3,
-        d.max_ns * 1e-3);
+    table.Add({d.name, fmt::format("{}", d.count), us(d.p50_ns), us(d.p99_ns), us(d.p999_ns),
+               us(d.max_ns)});
   }
-  return html + "</table></div>\n";
-}
-
-std::string Folded(const std::string& title, const std::string& text) {
-  if (text.empty()) return {};
-  return fmt::format(
-      "<details><summary>{}</summary><div class=scroll><pre>{}</pre></div></details>\n",
-      Escaped(title), Escaped(text));
+  return table.empty() ? html : html + table.Scrolling();
 }
 
 std::string Contents(const PageInput& input) {

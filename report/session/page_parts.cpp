@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "report/svg/escaped_text.hpp"
+#include "report/html/escaped_text.hpp"
 
 namespace levitas::report {
 namespace {
@@ -18,7 +18,8 @@ figure img{display:block;width:100%;height:auto}
 figcaption{color:#4b5363;font-size:.85em;padding:.3em .4em}
 .scroll{overflow-x:auto}pre{font-size:.8em;line-height:1.35;margin:.3em 0}
 table{border-collapse:collapse}td,th{padding:.15em .8em .15em 0;text-align:left;
-vertical-align:top;border-bottom:1px solid #e3e7ee}td{overflow-wrap:anywhere}td.n,th.n{text-align:right;
+vertical-align:top;border-bottom:1px solid #e3e7ee}td{overflow-wrap:anywhere}td.k{font-weight:bold;
+white-space:nowrap}td.n,th.n{text-align:right;
 font-variant-numeric:tabular-nums;white-space:nowrap}tr.trip{font-weight:bold}
 summary{cursor:pointer;font-weight:bold;padding:.3em 0}
 .tables{display:flex;flex-wrap:wrap;gap:1em 3em;align-items:flex-start}
@@ -102,7 +103,7 @@ std::string ForTheCursor(const svg::Figure& figure) {
         AxisText(at.y, panel.y_scale), Quoted(panel.x_label + ':'), Quoted(panel.y_label + ':'));
   }
   return fmt::format("data-view=\"0 0 {:.0f} {:.0f}\" data-panels=\"{}\"", size.width, size.height,
-                     svg::Escaped(panels + "]"));
+                     html::Escaped(panels + "]"));
 }
 
 }  // namespace
@@ -112,7 +113,7 @@ std::string PageStart(const std::string& title) {
       "<!doctype html>\n<html lang=en><head><meta charset=utf-8>\n<meta name=viewport "
       "content='width=device-width,initial-scale=1'>\n<title>{0}</title>\n<style>{1}</style></head>"
       "\n<body>\n<h1>{0}</h1>\n",
-      svg::Escaped(title), kStyle);
+      html::Escaped(title), kStyle);
 }
 
 std::string PageEnd() { return "</body></html>\n"; }
@@ -124,8 +125,8 @@ std::string Gallery(const std::vector<NamedPicture>& pictures) {
   for (const NamedPicture& picture : pictures) {
     html += fmt::format(
         "<figure id=\"{}\" {}><img alt=\"{}\" src=\"{}\"><figcaption>{}</figcaption></figure>\n",
-        svg::Escaped(picture.name), ForTheCursor(picture.figure), svg::Escaped(picture.caption),
-        DataAddress(svg::Draw(picture.figure)), svg::Escaped(picture.caption));
+        html::Escaped(picture.name), ForTheCursor(picture.figure), html::Escaped(picture.caption),
+        DataAddress(svg::Draw(picture.figure)), html::Escaped(picture.caption));
   }
   return html + "</div>\n";
 }

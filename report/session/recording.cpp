@@ -7,8 +7,8 @@
 #include "common/problem.hpp"
 #include "configuration/rig_file.hpp"
 #include "plant_sim/plant/train_model.hpp"
-#include "session/record_frame.hpp"
-#include "session/session_reader.hpp"
+#include "session/log/record_frame.hpp"
+#include "session/log/session_reader.hpp"
 
 namespace levitas::report {
 namespace {
@@ -78,7 +78,7 @@ Recording Load(const std::string& path) {
   Recording recording;
   recording.header = reader.header();
   const std::string within = path + " (header)";
-  const config::RigFile rig = config::ParseRig(recording.header.rig_yaml, within);
+  const configuration::RigFile rig = configuration::ParseRig(recording.header.rig_yaml, within);
   recording.rig = rig.numbers;
   if (!rig.plant.shafts.empty()) {
     const std::vector<double> ratio = plant::SpeedRatios(rig.plant);
@@ -89,7 +89,7 @@ Recording Load(const std::string& path) {
   recording.standstill_rad_per_s = kSlow;
   if (!recording.header.controller_yaml.empty()) {
     recording.standstill_rad_per_s =
-        config::ParseController(recording.header.controller_yaml, within, recording.rig)
+        configuration::ParseController(recording.header.controller_yaml, within, recording.rig)
             .supervisor.sequence.standstill_rad_per_s;
   }
   recording.position_m.resize(2 * recording.rig.bearings.size());

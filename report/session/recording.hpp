@@ -1,7 +1,7 @@
 #pragma once
 // A recorded session in memory, as its pictures need it.
 //
-// Frame    bearing frame: as session/record_frame.hpp gives it.
+// Frame    bearing frame: as session/log/record_frame.hpp gives it.
 // Units    SI; single precision (7 digits: 0.1 nm of 1 mm). About 50 bytes a cycle with four axes,
 //          66 with test signals.
 //          Left out cycles without a new sensor frame; a gap in `cycle` remains.
@@ -13,8 +13,8 @@
 
 #include "common/enums.hpp"
 #include "common/rig_numbers.hpp"
-#include "session/session_header.hpp"
-#include "session/torsion_recording.hpp"
+#include "session/log/session_header.hpp"
+#include "session/log/torsion_recording.hpp"
 
 namespace levitas::report {
 

@@ -51,9 +51,9 @@ NamedPicture SensitivityOf(const RunModel& model, const LoopAtSpeed& loop,
 }  // namespace
 
 RunModel ModelOf(const session::SessionHeader& header, const verdict::Verdict& verdict) {
-  const config::RigFile rig = config::ParseRig(header.rig_yaml, "header");
-  const config::ControllerFile controller =
-      config::ParseController(header.controller_yaml, "header", rig.numbers);
+  const configuration::RigFile rig = configuration::ParseRig(header.rig_yaml, "header");
+  const configuration::ControllerFile controller =
+      configuration::ParseController(header.controller_yaml, "header", rig.numbers);
   RunModel model;
   model.channels = rig.numbers.channels;
   model.rated_rad_per_s = rig.numbers.max_speed_rad_per_s;

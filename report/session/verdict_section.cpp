@@ -3,35 +3,32 @@
 #include <fmt/format.h>
 
 #include "common/rotational_speed.hpp"
-#include "report/svg/escaped_text.hpp"
+#include "report/html/elements.hpp"
+#include "report/html/table.hpp"
 
 namespace levitas::report {
 namespace {
 
-using svg::Escaped;
-
-std::string List(const std::vector<std::string>& sentences, const char* kind) {
-  if (sentences.empty()) return {};
-  std::string html = fmt::format("<ul class={}>\n", kind);
-  for (const std::string& sentence : sentences) html += "<li>" + Escaped(sentence) + "</li>\n";
-  return html + "</ul>\n";
-}
+using html::Kind;
 
 std::string Orbits(const verdict::Verdict& verdict) {
-  if (verdict.orbits.empty()) return {};
-  std::string html =
-      "<div class=scroll><table id=orbits>\n<tr><th>orbit</th><th>phase</th><th class=n>largest "
-      "radius, µm</th><th class=n>objective, µm</th><th class=n>of the clearance, "
-      "%</th><th>zone</th><th>met</th></tr>\n";
+  html::Table table({{"orbit"},
+                     {"phase"},
+                     {"largest radius, µm", Kind::kNumber},
+                     {"objective, µm", Kind::kNumber},
+                     {"of the clearance, %", Kind::kNumber},
+                     {"zone"},
+                     {"met"}},
+                    "orbits");
   for (const auto& orbit : verdict.orbits) {
-    html += fmt::format(
-        "<tr{}><td>{}</td><td>{}</td><td class=n>{:.2f}</td><td class=n>{:.2f}</td><td "
-        "class=n>{:.1f}</td><td>{}</td><td>{}</td></tr>\n",
-        orbit.met ? "" : " class=trip", Escaped(orbit.bearing),
-        orbit.spinning ? "spinning" : "standing", 1e6 * orbit.orbit.max_m, 1e6 * orbit.objective_m,
-        100.0 * orbit.clearance_share, analysis::Name(orbit.zone), orbit.met ? "yes" : "NO");
+    table.Add({orbit.bearing, orbit.spinning ? "spinning" : "standing",
+               fmt::format("{:.2f}", 1e6 * orbit.orbit.max_m),
+               fmt::format("{:.2f}", 1e6 * orbit.objective_m),
+               fmt::format("{:.1f}", 100.0 * orbit.clearance_share),
+               std::string(analysis::Name(orbit.zone)), orbit.met ? "yes" : "NO"},
+              orbit.met ? "" : "trip");
   }
-  return html + "</table></div>\n";
+  return table.empty() ? "" : table.Scrolling();
 }
 
 std::string MeasuredText(const verdict::Inputs& in, const std::string& channel, double speed) {
@@ -43,23 +40,24 @@ std::string MeasuredText(const verdict::Inputs& in, const std::string& channel, 
 }
 
 std::string Sensitivities(const verdict::Inputs& in) {
-  if (in.sensitivity.empty()) return {};
-  std::string html =
-      "<div class=scroll><table id=sensitivity>\n<tr><th class=n>speed, rpm</th><th>axis</th><th "
-      "class=n>largest |S|, computed</th><th class=n>at, "
-      "Hz</th><th>zone</th><th>measured</th></tr>\n";
+  html::Table table({{"speed, rpm", Kind::kNumber},
+                     {"axis"},
+                     {"largest |S|, computed", Kind::kNumber},
+                     {"at, Hz", Kind::kNumber},
+                     {"zone"},
+                     {"measured"}},
+                    "sensitivity");
   for (const auto& at : in.sensitivity) {
     for (std::size_t i = 0; i < at.axes.size() && i < in.rig.channels.size(); ++i) {
       const auto& axis = at.axes[i];
-      html += fmt::format(
-          "<tr><td class=n>{:.0f}</td><td>{}</td><td class=n>{:.3f}</td><td "
-          "class=n>{:.1f}</td><td>{}</td><td>{}</td></tr>\n",
-          RadPerSToRpm(at.speed_rad_per_s), Escaped(in.rig.channels[i]), axis.peak,
-          axis.frequency_hz, axis.zone ? analysis::Name(*axis.zone) : "unstable: no grade",
-          MeasuredText(in, in.rig.channels[i], at.speed_rad_per_s));
+      const std::string& channel = in.rig.channels[i];
+      table.Add({fmt::format("{:.0f}", RadPerSToRpm(at.speed_rad_per_s)), channel,
+                 fmt::format("{:.3f}", axis.peak), fmt::format("{:.1f}", axis.frequency_hz),
+                 axis.zone ? std::string(analysis::Name(*axis.zone)) : "unstable: no grade",
+                 MeasuredText(in, channel, at.speed_rad_per_s)});
     }
   }
-  return html + "</table></div>\n";
+  return table.empty() ? "" : table.Scrolling();
 }
 
 }  // namespace
@@ -69,9 +67,8 @@ std::string VerdictSection(const std::optional<verdict::Verdict>& verdict) {
     return "<p class=verdict>Not judged: the record names no controller.</p>\n";
   }
   const bool good = verdict->outcome == verdict::Outcome::kAccepted;
-  return fmt::format("<p class='verdict{}'>{}</p>\n", good ? " good" : "",
-                     Escaped(verdict->sentence)) +
-         List(verdict->objections, "objections") + List(verdict->warnings, "warnings") +
+  return html::Paragraph(verdict->sentence, good ? "verdict good" : "verdict") +
+         html::List(verdict->objections, "objections") + html::List(verdict->warnings, "warnings") +
          "<div class=tables>\n" + Orbits(*verdict) + Sensitivities(verdict->inputs) + "</div>\n";
 }
 
@@ -86,19 +83,21 @@ std::string CriticalSpeedSection(const std::optional<analysis::Campbell>& levita
       "damped.</p>\n",
       top_rpm, analysis::kCriticallyDamped);
   if (levitated->crossings.empty()) return html + "<p>None.</p>\n";
-  html +=
-      "<div class=scroll><table>\n<tr><th class=n>speed, rpm</th><th class=n>frequency, "
-      "Hz</th><th class=n>damping ratio</th><th class=n>amplification</th><th>whirl</th>"
-      "<th>excited by</th></tr>\n";
+  html::Table table({{"speed, rpm", Kind::kNumber},
+                     {"frequency, Hz", Kind::kNumber},
+                     {"damping ratio", Kind::kNumber},
+                     {"amplification", Kind::kNumber},
+                     {"whirl"},
+                     {"excited by"}});
   for (const auto& crossing : levitated->crossings) {
-    html += fmt::format(
-        "<tr><td class=n>{:.0f}</td><td class=n>{:.2f}</td><td class=n>{:.4f}</td><td "
-        "class=n>{:.1f}</td><td>{}</td><td>{}</td></tr>\n",
-        RadPerSToRpm(crossing.speed_rad_per_s), crossing.mode.frequency_hz,
-        crossing.mode.damping_ratio, analysis::AmplificationFactor(crossing.mode),
-        analysis::WhirlName(crossing.mode), Escaped(levitated->orders[crossing.order].name));
+    table.Add({fmt::format("{:.0f}", RadPerSToRpm(crossing.speed_rad_per_s)),
+               fmt::format("{:.2f}", crossing.mode.frequency_hz),
+               fmt::format("{:.4f}", crossing.mode.damping_ratio),
+               fmt::format("{:.1f}", analysis::AmplificationFactor(crossing.mode)),
+               std::string(analysis::WhirlName(crossing.mode)),
+               levitated->orders[crossing.order].name});
   }
-  return html + "</table></div>\n";
+  return html + table.Scrolling();
 }
 
 }  // namespace levitas::report

@@ -5,7 +5,7 @@
 
 #include "configuration/rig_file.hpp"
 #include "configuration/schema/unit.hpp"
-#include "plant_sim/plant/effects/clear_entry.hpp"
+#include "plant_sim/plant/applied_effects/clear_entry.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 #include "report/signature/signature.hpp"
 
@@ -55,16 +55,16 @@ by the trapezoid rule in ln x with ten points from 1e-4 to 1e2. It follows the h
 
 )";
 
-std::string Number(double value, const config::Unit& unit) {
+std::string Number(double value, const configuration::Unit& unit) {
   if (std::isnan(value)) return "own";
   if (std::isinf(value)) return "infinite";
-  return fmt::format("{:.4g}", std::stod(config::FromSi(value, unit)));
+  return fmt::format("{:.4g}", std::stod(configuration::FromSi(value, unit)));
 }
 
 std::string Parameters(const effect::Row& row) {
   std::string text = "| key | allowed | neutral | clear | meaning |\n|---|---|---|---|---|\n";
   for (const effect::Parameter& p : row.parameters) {
-    const config::Unit& unit = FileUnit(p);
+    const configuration::Unit& unit = FileUnit(p);
     const bool of_own = std::isnan(p.neutral);  // then a factor on what the rig has
     text += fmt::format("| `{}` | {} to {} | {} | {} | {} |\n", effect::FileKey(p),
                         Number(p.low, unit), Number(p.high, unit), Number(p.neutral, unit),
@@ -75,7 +75,7 @@ std::string Parameters(const effect::Row& row) {
 }
 
 /// Where an entry acts, as a rig file says it: the first place of its kind.
-std::string Place(const effect::Row& row, const config::RigFile& rig) {
+std::string Place(const effect::Row& row, const configuration::RigFile& rig) {
   switch (row.scope) {
     case effect::Scope::kChannels:
       return fmt::format(", channels: [{}]", rig.numbers.channels.front());
@@ -96,7 +96,7 @@ std::string Place(const effect::Row& row, const config::RigFile& rig) {
   return "";
 }
 
-std::string Entry(const effect::Row& row, const config::RigFile& rig) {
+std::string Entry(const effect::Row& row, const configuration::RigFile& rig) {
   const effect::EffectConfig clear = plant::ClearOn(plant::Reduce(rig.plant), row.id);
   std::string text = fmt::format("- {{id: {}{}", row.name, Place(row, rig));
   for (std::size_t i = 0; i < row.parameters.size(); ++i) {
@@ -125,8 +125,10 @@ std::string_view Where(effect::Scope scope) {
 }  // namespace
 
 std::string EffectsDocument() {
-  const config::RigFile plain = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
-  const config::RigFile geared = config::LoadRig(config::FindConfig("geared_rotor_4dof", "rigs"));
+  const configuration::RigFile plain =
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
+  const configuration::RigFile geared =
+      configuration::LoadRig(configuration::FindConfig("geared_rotor_4dof", "rigs"));
   std::string text(kIntroduction);
   for (const effect::Row& row : effect::Catalogue()) {
     text += fmt::format(

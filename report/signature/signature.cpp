@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "configuration/schema/unit.hpp"
-#include "plant_sim/plant/effects/apply_effects.hpp"
+#include "plant_sim/plant/applied_effects/apply_effects.hpp"
 
 namespace levitas::signature {
 
@@ -15,23 +15,23 @@ using effect::Shows;
 namespace {
 
 /// As it is printed: the micro of files' keys is a u.
-std::string Symbol(const config::Unit& unit) {
+std::string Symbol(const configuration::Unit& unit) {
   const std::string symbol(unit.symbol);
   return symbol == "um" || symbol == "us" ? "µ" + symbol.substr(1) : symbol;
 }
 
-std::string InUnit(double value, const config::Unit& unit) {
+std::string InUnit(double value, const configuration::Unit& unit) {
   const double per_si = std::pow(10.0, unit.decimal_exponent) * static_cast<double>(unit.factor);
   return fmt::format("{:.4g}{}{}", value / per_si, unit.symbol.empty() ? "" : " ", Symbol(unit));
 }
 
 }  // namespace
 
-const config::Unit& FileUnit(const effect::Parameter& parameter) {
-  for (const config::Unit& unit : config::AllUnits()) {
+const configuration::Unit& FileUnit(const effect::Parameter& parameter) {
+  for (const configuration::Unit& unit : configuration::AllUnits()) {
     if (!unit.suffix.empty() && unit.suffix == parameter.file_suffix) return unit;
   }
-  return config::unit::kOne;
+  return configuration::unit::kOne;
 }
 
 std::string SizeText(const plant::PlantParameters& rig, const effect::EffectConfig& entry) {
@@ -40,7 +40,7 @@ std::string SizeText(const plant::PlantParameters& rig, const effect::EffectConf
   std::string text;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const effect::Parameter& p = parameters[i];
-    const config::Unit& unit = FileUnit(p);
+    const configuration::Unit& unit = FileUnit(p);
     text += fmt::format("{}{} {}", i == 0 ? "" : ", ", p.stem, InUnit(entry.values[i], unit));
     if (std::isnan(p.neutral)) text += fmt::format(" (the rig has {})", InUnit(own[i], unit));
   }

@@ -21,7 +21,7 @@
 #include "plant_sim/plant/plant_parameters.hpp"
 #include "report/svg/figure.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 struct Unit;
 }
 
@@ -52,7 +52,7 @@ struct Pair {
 [[nodiscard]] std::vector<svg::Panel> GearPanels(const Pair& rigs);
 
 /// The unit that a key of a rig file ends in; of a pure number kOne.
-[[nodiscard]] const config::Unit& FileUnit(const effect::Parameter& parameter);
+[[nodiscard]] const configuration::Unit& FileUnit(const effect::Parameter& parameter);
 
 /// docs/effects.md as it must read for the present catalogue.
 [[nodiscard]] std::string EffectsDocument();

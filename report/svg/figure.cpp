@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "common/output_file.hpp"
-#include "report/svg/escaped_text.hpp"
+#include "report/html/escaped_text.hpp"
 
 namespace levitas::svg {
 namespace {
@@ -119,8 +119,9 @@ std::string Grid(const Panel& panel, const Frame& f) {
       "<text x='{:.1f}' y='{:.1f}' font-weight='bold'>{}</text>\n"
       "<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{}</text>\n"
       "<text transform='translate({:.1f} {:.1f}) rotate(-90)' text-anchor='middle'>{}</text>\n",
-      f.left, f.title, Escaped(panel.title), 0.5 * (f.left + f.right), f.bottom + 30,
-      Escaped(panel.x_label), f.left - 48, 0.5 * (f.top + f.bottom), Escaped(panel.y_label));
+      f.left, f.title, html::Escaped(panel.title), 0.5 * (f.left + f.right), f.bottom + 30,
+      html::Escaped(panel.x_label), f.left - 48, 0.5 * (f.top + f.bottom),
+      html::Escaped(panel.y_label));
   return svg;
 }
 
@@ -208,7 +209,7 @@ std::string Legend(const Panel& panel, const Frame& f) {
     }
     if (s.mark > Mark::kCross) svg += MarkAt(s, x + 8, y);
     svg += fmt::format("<text x='{:.1f}' y='{:.1f}' fill='{}'>{}</text>\n", x + 20, y + 4, s.colour,
-                       Escaped(s.name));
+                       html::Escaped(s.name));
     x += EntryWidth(s);
   }
   return svg;
@@ -227,7 +228,7 @@ std::string Notes(const Panel& panel, const Frame& f) {
         "<text x='{:.1f}' y='{:.1f}' text-anchor='{}' fill='{}' stroke='white' stroke-width='3' "
         "paint-order='stroke'>{}</text>\n",
         f.x.Pixel(note.x) + note.right_px, f.y.Pixel(note.y) + note.down_px + 4,
-        kAnchors[static_cast<std::size_t>(note.anchor)], note.colour, Escaped(note.text));
+        kAnchors[static_cast<std::size_t>(note.anchor)], note.colour, html::Escaped(note.text));
   }
   return svg;
 }
@@ -284,12 +285,14 @@ std::string Draw(const Figure& figure) {
       "fill='white'/>\n",
       size.width, size.height);
   if (!figure.title.empty()) {
-    svg += fmt::format("<text x='12' y='19' font-size='15'>{}</text>\n", Escaped(figure.title));
+    svg +=
+        fmt::format("<text x='12' y='19' font-size='15'>{}</text>\n", html::Escaped(figure.title));
   }
   const double lines = TopOf(figure) - kLineHeight * static_cast<double>(figure.lines.size());
   for (std::size_t i = 0; i < figure.lines.size(); ++i) {
     svg += fmt::format("<text x='12' y='{:.0f}' fill='#4b5363'>{}</text>\n",
-                       lines + 9 + kLineHeight * static_cast<double>(i), Escaped(figure.lines[i]));
+                       lines + 9 + kLineHeight * static_cast<double>(i),
+                       html::Escaped(figure.lines[i]));
   }
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     svg += DrawPanel(figure.panels[i], FrameOf(figure, i), i);

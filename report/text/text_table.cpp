@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace levitas::cli {
+namespace levitas::report {
 
 std::string TextTable::Text() const {
   constexpr std::size_t kBetween = 2;
@@ -25,4 +25,4 @@ std::string TextTable::Text() const {
   return text;
 }
 
-}  // namespace levitas::cli
+}  // namespace levitas::report

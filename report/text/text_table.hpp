@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace levitas::cli {
+namespace levitas::report {
 
 class TextTable {
  public:
@@ -19,4 +19,4 @@ class TextTable {
   std::vector<std::vector<std::string>> rows_;
 };
 
-}  // namespace levitas::cli
+}  // namespace levitas::report

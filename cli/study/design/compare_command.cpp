@@ -21,7 +21,7 @@
 #include "controller/law/running_law.hpp"
 #include "design/gate/gate.hpp"
 #include "report/text/text_table.hpp"
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -56,8 +56,8 @@ double StepNs(const law::LawConfig& law, double speed_rad_per_s) {
   return std::isfinite(sum_a) ? least_ns : 0.0;
 }
 
-Compared Measure(const config::RigFile& rig, const std::string& name, const CompareOptions& options,
-                 const uncertainty::AnalysisWeights& weights) {
+Compared Measure(const configuration::RigFile& rig, const std::string& name,
+                 const CompareOptions& options, const uncertainty::AnalysisWeights& weights) {
   constexpr int kSpeeds = 12;
   AnalysisOptions load = options.rig;
   load.controller_name = name;
@@ -131,7 +131,7 @@ ExitStatus Run(const CompareOptions& options) {
              options.gate.third_n > 0.0
                  ? fmt::format(", {:.2f} N at three times the speed", options.gate.third_n)
                  : "");
-  TextTable table;
+  report::TextTable table;
   for (const auto& row : ComparedRows(compared, options.rig.speeds_rpm)) table.Add(row);
   fmt::print("{}", table.Text());
   if (!options.html_path.empty())

@@ -9,7 +9,8 @@
 #include "common/rotational_speed.hpp"
 #include "controller/law/law_schedule.hpp"
 #include "design/uncertainty/uncertain_plant.hpp"
-#include "report/svg/escaped_text.hpp"
+#include "report/html/escaped_text.hpp"
+#include "report/html/table.hpp"
 #include "report/svg/figure.hpp"
 
 namespace levitas::cli {
@@ -22,7 +23,7 @@ std::string Slashed(const std::vector<double>& values, double scale, const char*
   return out;
 }
 
-void AddBode(const std::vector<Compared>& compared, const config::RigFile& rig,
+void AddBode(const std::vector<Compared>& compared, const configuration::RigFile& rig,
              svg::Figure& figure) {
   constexpr int kPoints = 400;
   for (std::size_t b = 0; b < rig.numbers.bearings.size(); ++b) {
@@ -100,7 +101,7 @@ svg::Panel WorstOverSpeed(const std::vector<Compared>& compared) {
   return panel;
 }
 
-svg::Figure Picture(const std::vector<Compared>& compared, const config::RigFile& rig,
+svg::Figure Picture(const std::vector<Compared>& compared, const configuration::RigFile& rig,
                     const std::vector<double>& speeds_rpm) {
   svg::Figure figure;
   figure.columns = 2;
@@ -136,15 +137,13 @@ svg::Figure Picture(const std::vector<Compared>& compared, const config::RigFile
   return figure;
 }
 
+/// The first row is the head.
 std::string HtmlTable(const std::vector<std::vector<std::string>>& rows) {
-  std::string html = "<table>\n";
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    html += "<tr>";
-    for (const std::string& cell : rows[r])
-      html += fmt::format("<{0}>{1}</{0}>", r == 0 ? "th" : "td", svg::Escaped(cell));
-    html += "</tr>\n";
-  }
-  return html + "</table>\n";
+  std::vector<html::Column> head;
+  for (const std::string& title : rows.front()) head.push_back({title});
+  html::Table table(std::move(head));
+  for (std::size_t r = 1; r < rows.size(); ++r) table.Add(rows[r]);
+  return table.Html();
 }
 
 }  // namespace
@@ -193,10 +192,10 @@ std::vector<std::vector<std::string>> ComparedRows(const std::vector<Compared>& 
   return rows;
 }
 
-std::string ComparePage(const std::vector<Compared>& compared, const config::RigFile& rig,
+std::string ComparePage(const std::vector<Compared>& compared, const configuration::RigFile& rig,
                         const std::vector<double>& speeds_rpm) {
   const std::string title =
-      fmt::format("Controllers compared on rig {}", svg::Escaped(rig.numbers.name));
+      fmt::format("Controllers compared on rig {}", html::Escaped(rig.numbers.name));
   return fmt::format(
              "<!doctype html><meta charset=\"utf-8\"><title>{0}</title>\n<style>"
              "body{{font-family:sans-serif;margin:2em}}table{{border-collapse:collapse}}"

@@ -35,7 +35,7 @@ struct Compared {
     const std::vector<Compared>& compared, const std::vector<double>& speeds_rpm);
 
 [[nodiscard]] std::string ComparePage(const std::vector<Compared>& compared,
-                                      const config::RigFile& rig,
+                                      const configuration::RigFile& rig,
                                       const std::vector<double>& speeds_rpm);
 
 }  // namespace levitas::cli

@@ -84,7 +84,7 @@ void AddGateOptions(CLI::App& command, GateCommandOptions& options) {
       ->capture_default_str();
 }
 
-std::vector<uncertainty::Parameter> ParametersOf(const config::RigFile& rig,
+std::vector<uncertainty::Parameter> ParametersOf(const configuration::RigFile& rig,
                                                  const std::string& from) {
   if (from == "tolerances") return uncertainty::FromTolerances(rig, 4);
   if (from == "stated") return uncertainty::Stated(rig, {});
@@ -98,7 +98,7 @@ design::DesignFile DesignOf(const GateCommandOptions& options) {
 
 design::GateOptions GateOf(const GateCommandOptions& options,
                            const uncertainty::AnalysisWeights& weights,
-                           const config::RigFile& rig) {
+                           const configuration::RigFile& rig) {
   design::GateOptions gate;
   gate.draws = options.draws;
   gate.corners = options.corners;
@@ -113,7 +113,7 @@ design::GateOptions GateOf(const GateCommandOptions& options,
   return gate;
 }
 
-design::GateResult JudgeAndPrint(const config::RigFile& rig, const law::LawConfig& law,
+design::GateResult JudgeAndPrint(const configuration::RigFile& rig, const law::LawConfig& law,
                                  const GateCommandOptions& options,
                                  const uncertainty::AnalysisWeights& weights) {
   const design::GateOptions gate = GateOf(options, weights, rig);
@@ -151,7 +151,7 @@ design::GateResult JudgeAndPrint(const config::RigFile& rig, const law::LawConfi
   if (options.tolerances)
     fmt::print("         drawn within the file's tolerances too: |S| {}\n",
                PeakText(result.drawn_sensitivity));
-  TextTable table;
+  report::TextTable table;
   table.Add({"  rpm", "lost", "worst orbit [um]", "median [um]"});
   for (const auto& at : result.drawn)
     table.Add({fmt::format("  {:.0f}", RadPerSToRpm(at.speed_rad_per_s)),

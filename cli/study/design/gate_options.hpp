@@ -29,7 +29,7 @@ void AddGateOptions(CLI::App& command, GateCommandOptions& options);
 void AddUncertaintyOption(CLI::App& command, std::string& from);
 
 /// `from`: "stated", "tolerances", or a file of `amb identify modal --json`.
-[[nodiscard]] std::vector<uncertainty::Parameter> ParametersOf(const config::RigFile& rig,
+[[nodiscard]] std::vector<uncertainty::Parameter> ParametersOf(const configuration::RigFile& rig,
                                                                const std::string& from);
 
 /// The design file that was named, or the default weights.
@@ -38,10 +38,10 @@ void AddUncertaintyOption(CLI::App& command, std::string& from);
 /// What the options ask of the gate on this rig, by these weights.
 [[nodiscard]] design::GateOptions GateOf(const GateCommandOptions& options,
                                          const uncertainty::AnalysisWeights& weights,
-                                         const config::RigFile& rig);
+                                         const configuration::RigFile& rig);
 
 /// Judges with a progress bar on a terminal, prints the figures.
-[[nodiscard]] design::GateResult JudgeAndPrint(const config::RigFile& rig,
+[[nodiscard]] design::GateResult JudgeAndPrint(const configuration::RigFile& rig,
                                                const law::LawConfig& law,
                                                const GateCommandOptions& options,
                                                const uncertainty::AnalysisWeights& weights);

@@ -16,7 +16,7 @@
 #include "cli/text_file.hpp"
 #include "common/rotational_speed.hpp"
 #include "design/search/weight_search.hpp"
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -34,7 +34,7 @@ struct HinfCommandOptions {
   double current_goal_a{0.6};
 };
 
-hinf::HinfWeights Search(const HinfCommandOptions& options, const config::RigFile& rig,
+hinf::HinfWeights Search(const HinfCommandOptions& options, const configuration::RigFile& rig,
                          const design::DesignFile& start, const hinf::HinfDesignOptions& design) {
   design::FigureOptions figures;
   figures.weights = start.analysis;
@@ -80,8 +80,8 @@ ExitStatus Run(const HinfCommandOptions& options) {
       "law      {} states of {}, gamma {:.3f}, slowest state decays at {:.2f} 1/s, no integrator\n",
       made.states, made.full_states, made.gamma, made.slowest_pole_1_per_s);
   const auto result = JudgeAndPrint(rig, made.law, options.gate, weights.analysis);
-  const config::ControllerFile file{rig.numbers.name + "_hinf", made.law,
-                                    template_controller.file.supervisor};
+  const configuration::ControllerFile file{rig.numbers.name + "_hinf", made.law,
+                                           template_controller.file.supervisor};
   auto written = WriteJudged(options.out_path, "amb design hinf", options.gate.seed, file,
                              rig.numbers, result);
   if (!options.weights_path.empty()) {
@@ -105,7 +105,7 @@ ExitStatus Check(const HinfCommandOptions& options) {
   fmt::print("rig {}, controller {}\n{}", rig.numbers.name, ControllerText(controller), delay);
   const auto result = JudgeAndPrint(rig, controller.file.law, options.gate, weights);
   if (!options.out_path.empty() && result.worst)
-    WriteTextFile(options.out_path, config::WriteRig(*result.worst));
+    WriteTextFile(options.out_path, configuration::WriteRig(*result.worst));
   WriteJsonFile(options.loop.json_path, GateJson(result));
   TellWritten({result.worst ? options.out_path : "", options.loop.json_path});
   return result.accepted ? ExitStatus::kDone : ExitStatus::kOther;

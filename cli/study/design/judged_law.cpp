@@ -24,7 +24,7 @@ double ControlLimitA(const RigNumbers& rig) {
 }
 
 std::vector<std::string> WriteJudged(const std::string& out_path, const std::string& command,
-                                     std::uint64_t seed, const config::ControllerFile& file,
+                                     std::uint64_t seed, const configuration::ControllerFile& file,
                                      const RigNumbers& rig, const design::GateResult& result) {
   if (out_path.empty()) return {};
   const std::string path = result.accepted ? out_path : Beside(out_path, ".rejected.yaml");
@@ -35,7 +35,7 @@ std::vector<std::string> WriteJudged(const std::string& out_path, const std::str
   std::vector<std::string> written{path};
   if (!result.accepted && result.worst) {
     written.push_back(Beside(out_path, ".worst_rig.yaml"));
-    WriteTextFile(written.back(), config::WriteRig(*result.worst));
+    WriteTextFile(written.back(), configuration::WriteRig(*result.worst));
   }
   return written;
 }

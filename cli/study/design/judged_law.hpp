@@ -17,7 +17,7 @@ namespace levitas::cli {
 /// nothing. `command`: who made it, for the file's first line.
 [[nodiscard]] std::vector<std::string> WriteJudged(const std::string& out_path,
                                                    const std::string& command, std::uint64_t seed,
-                                                   const config::ControllerFile& file,
+                                                   const configuration::ControllerFile& file,
                                                    const RigNumbers& rig,
                                                    const design::GateResult& result);
 

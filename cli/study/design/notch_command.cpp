@@ -22,8 +22,8 @@
 #include "design/notch/notch_design.hpp"
 #include "identification/frf/frequency_response.hpp"
 #include "report/text/text_table.hpp"
-#include "session/output_path.hpp"
-#include "session/recording.hpp"
+#include "session/exchange/recording.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -49,9 +49,11 @@ struct NotchOptions {
 };
 
 /// As the file's reader takes it, so that what is written is the number that was given.
-double SpeedOf(double rpm) { return *config::ToSi(fmt::format("{}", rpm), config::unit::kRpm); }
+double SpeedOf(double rpm) {
+  return *configuration::ToSi(fmt::format("{}", rpm), configuration::unit::kRpm);
+}
 
-design::NotchRequest RequestOf(const NotchOptions& options, const config::RigFile& rig) {
+design::NotchRequest RequestOf(const NotchOptions& options, const configuration::RigFile& rig) {
   design::NotchRequest request;
   synchronous::BlockConfig& block = request.block;
   const double rated = rig.numbers.max_speed_rad_per_s;
@@ -103,7 +105,7 @@ design::NotchRequest RequestOf(const NotchOptions& options, const config::RigFil
 }
 
 void Print(const design::NotchFigures& figures, bool vibration) {
-  TextTable table;
+  report::TextTable table;
   table.Add({"rpm", "decay", "of drawn", "|z| of all", vibration ? "condition" : "growth",
              vibration ? "current A" : "orbit um", ""});
   const std::size_t step = std::max<std::size_t>(1, figures.speeds.size() / 12);
@@ -200,7 +202,7 @@ void RefuseSharedWork(const synchronous::SynchronousConfig& control,
 
 /// Frequency responses of the records, by rising speed.
 std::vector<design::MeasuredPlant> MeasuredOf(const NotchOptions& options,
-                                              const config::RigFile& rig) {
+                                              const configuration::RigFile& rig) {
   std::vector<design::MeasuredPlant> all;
   const double delay_s = rig.plant.delay_samples * rig.numbers.period_s();
   for (const std::string& path : options.measured) {
@@ -223,7 +225,7 @@ ExitStatus Run(const NotchOptions& options) {
   }
   const auto [rig, controller, delay] = LoadLoop(options.loop);
   design::NotchRequest request = RequestOf(options, rig);
-  config::ControllerFile file = controller.file;
+  configuration::ControllerFile file = controller.file;
   RefuseSharedWork(file.synchronous, request.block);
   request.measured = MeasuredOf(options, rig);
   request.block = design::WithInverse(rig, file.law, request);
@@ -239,7 +241,7 @@ ExitStatus Run(const NotchOptions& options) {
         RadPerSToRpm(record.speed_rad_per_s), record.frequency_hz.front(),
         record.frequency_hz.back());
   }
-  std::vector<config::RigFile> drawn;
+  std::vector<configuration::RigFile> drawn;
   if (request.measured.empty()) {
     drawn =
         uncertainty::DrawRigs(rig, ParametersOf(rig, options.from), options.draws, options.seed);

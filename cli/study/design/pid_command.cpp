@@ -20,7 +20,7 @@
 #include "common/rotational_speed.hpp"
 #include "design/pid/pid_search.hpp"
 #include "report/text/text_table.hpp"
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -28,7 +28,7 @@ namespace {
 using design::Limit;
 
 void PrintRequirements(const design::PidFigures& figures, const design::PidLimits& limits) {
-  TextTable table;
+  report::TextTable table;
   table.Add({"requirement", "limit", "reached", "at"});
   for (std::size_t i = 0; i < design::kLimits; ++i) {
     const auto limit = static_cast<Limit>(i);
@@ -78,7 +78,7 @@ nlohmann::ordered_json RequirementsJson(const design::PidFigures& figures,
   return json;
 }
 
-design::PidSearchResult Search(const PidCommandOptions& options, const config::RigFile& rig,
+design::PidSearchResult Search(const PidCommandOptions& options, const configuration::RigFile& rig,
                                const design::PidLimits& limits) {
   ProgressLine line(stderr, isatty(STDERR_FILENO) != 0);
   const InterruptGuard interrupt;
@@ -137,8 +137,8 @@ ExitStatus Run(PidCommandOptions options) {
       coordinates.empty() ? found.law : design::BetweenAxes(found.law, coordinates);
   if (options.tilt) fmt::print("law      {}\n", ChannelsText(found.law));
   const auto result = JudgeAndPrint(rig, law, options.gate, weights.analysis);
-  const config::ControllerFile file{rig.numbers.name + "_pid", law,
-                                    template_controller.file.supervisor};
+  const configuration::ControllerFile file{rig.numbers.name + "_pid", law,
+                                           template_controller.file.supervisor};
   const std::string made =
       options.tilt ? "amb design pid --tilt, " + ChannelsText(found.law) : "amb design pid";
   auto written = WriteJudged(options.out_path, made, options.gate.seed, file, rig.numbers, result);

@@ -49,7 +49,7 @@ void AddLimitOptions(CLI::App& command, PidCommandOptions& options) {
 
 }  // namespace
 
-design::PidLimits LimitsOf(const PidCommandOptions& options, const config::RigFile& rig) {
+design::PidLimits LimitsOf(const PidCommandOptions& options, const configuration::RigFile& rig) {
   auto out = design::UsualLimits(rig, options.search.current_limit_a);
   out[Limit::kSensitivity] = options.sensitivity;
   out[Limit::kCornerSensitivity] = options.gate.sensitivity;
@@ -90,7 +90,7 @@ void RefuseHeld(const char* option, const std::vector<double>& at_hz, const char
 
 }  // namespace
 
-void CompleteSearch(const config::RigFile& rig, PidCommandOptions& options) {
+void CompleteSearch(const configuration::RigFile& rig, PidCommandOptions& options) {
   const auto& search = options.search;
   const double period_s = rig.numbers.period_s();
   RefuseHeld("--lead-lag-hz", search.lead_lags_at_hz, "--lead-lags", search.lead_lags, period_s);

@@ -32,9 +32,9 @@ void AddPidSearchOptions(CLI::App& command, PidCommandOptions& options);
 
 /// The requirements that the options ask of this rig.
 [[nodiscard]] design::PidLimits LimitsOf(const PidCommandOptions& options,
-                                         const config::RigFile& rig);
+                                         const configuration::RigFile& rig);
 
 /// Rig and protections of the search, and what of it the other options say.
-void CompleteSearch(const config::RigFile& rig, PidCommandOptions& options);
+void CompleteSearch(const configuration::RigFile& rig, PidCommandOptions& options);
 
 }  // namespace levitas::cli

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/rotational_speed.hpp"
+#include "report/html/table.hpp"
 #include "report/svg/figure.hpp"
 
 namespace levitas::cli {
@@ -49,23 +50,22 @@ svg::Panel MapPanel(const NamedLaw& named, const design::GainMap& map) {
 }
 
 std::string Table(const design::PidFigures& figures, const design::PidLimits& limits) {
-  std::string out =
-      "<table><tr><th>requirement</th><th>limit</th><th>reached</th><th>at</th></tr>\n";
+  html::Table table({{"requirement"}, {"limit"}, {"reached"}, {"at"}});
   for (std::size_t i = 0; i < design::kLimits; ++i) {
     const auto limit = static_cast<design::Limit>(i);
     const auto& met = figures[limit];
-    out += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}{:.0f} rpm</td></tr>\n", design::NameOf(limit),
-        limits[limit] ? design::ValueText(limit, *limits[limit]) : "-",
-        design::ValueText(limit, met.found), met.hz > 0.0 ? fmt::format("{:.1f} Hz, ", met.hz) : "",
-        RadPerSToRpm(met.speed_rad_per_s));
+    table.Add({std::string(design::NameOf(limit)),
+               limits[limit] ? design::ValueText(limit, *limits[limit]) : "-",
+               design::ValueText(limit, met.found),
+               fmt::format("{}{:.0f} rpm", met.hz > 0.0 ? fmt::format("{:.1f} Hz, ", met.hz) : "",
+                           RadPerSToRpm(met.speed_rad_per_s))});
   }
-  return out + "</table>\n";
+  return table.Html();
 }
 
 }  // namespace
 
-std::string PidPage(const config::RigFile& rig, const std::vector<NamedLaw>& laws,
+std::string PidPage(const configuration::RigFile& rig, const std::vector<NamedLaw>& laws,
                     const design::PidFigures& figures, const design::PidLimits& limits) {
   const auto plants = [&](const design::Coordinates& coordinates) {
     std::vector<std::shared_ptr<const design::SampledPlant>> out;

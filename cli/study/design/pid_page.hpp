@@ -18,7 +18,8 @@ struct NamedLaw {
   design::Coordinates coordinates{};
 };
 
-[[nodiscard]] std::string PidPage(const config::RigFile& rig, const std::vector<NamedLaw>& laws,
+[[nodiscard]] std::string PidPage(const configuration::RigFile& rig,
+                                  const std::vector<NamedLaw>& laws,
                                   const design::PidFigures& figures,
                                   const design::PidLimits& limits);
 

@@ -23,7 +23,7 @@
 #include "controller/law/law_schedule.hpp"
 #include "design/pid/align_blocks.hpp"
 #include "design/pid/schedule_search.hpp"
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -55,7 +55,8 @@ Entry EntryOf(const std::string& text) {
 
 /// The laws of files as a table; their blocks, whose order and scale are free, brought next to
 /// those of the entry before. A law of another structure than the one before is exchanged for it.
-std::vector<NamedLaw> FromFiles(const ScheduleCommandOptions& options, const config::RigFile& rig) {
+std::vector<NamedLaw> FromFiles(const ScheduleCommandOptions& options,
+                                const configuration::RigFile& rig) {
   if (options.laws.size() < 2 || options.laws.size() > design::kMostEntries)
     throw Problem(ExitStatus::kUsage, fmt::format("--law: given {} times, allowed 2 to {}",
                                                   options.laws.size(), design::kMostEntries));
@@ -98,7 +99,8 @@ std::vector<NamedLaw> FromFiles(const ScheduleCommandOptions& options, const con
   return named;
 }
 
-std::vector<double> TableSpeeds(const ScheduleCommandOptions& options, const config::RigFile& rig) {
+std::vector<double> TableSpeeds(const ScheduleCommandOptions& options,
+                                const configuration::RigFile& rig) {
   std::vector<double> out;
   for (const double rpm : options.speeds_rpm) out.push_back(RpmToRadPerS(rpm));
   const double top = rig.numbers.max_speed_rad_per_s;
@@ -113,7 +115,7 @@ std::vector<double> TableSpeeds(const ScheduleCommandOptions& options, const con
   return out;
 }
 
-std::vector<NamedLaw> Search(ScheduleCommandOptions& options, const config::RigFile& rig) {
+std::vector<NamedLaw> Search(ScheduleCommandOptions& options, const configuration::RigFile& rig) {
   CompleteSearch(rig, options.pid);
   design::ScheduleOptions search{options.pid.search, TableSpeeds(options, rig)};
   ProgressLine line(stderr, isatty(STDERR_FILENO) != 0);
@@ -153,8 +155,8 @@ ExitStatus Run(ScheduleCommandOptions options) {
   const std::vector<LawOverSpeed> figures = FiguresOverSpeed(rig, laws);
   PrintOverSpeed(figures);
   const auto result = JudgeAndPrint(rig, table, pid.gate, weights.analysis);
-  const config::ControllerFile file{rig.numbers.name + "_schedule", table,
-                                    template_controller.file.supervisor};
+  const configuration::ControllerFile file{rig.numbers.name + "_schedule", table,
+                                           template_controller.file.supervisor};
   auto written =
       WriteJudged(pid.out_path, "amb design schedule", pid.gate.seed, file, rig.numbers, result);
   if (!pid.html_path.empty())

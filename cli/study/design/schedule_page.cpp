@@ -75,7 +75,7 @@ svg::Panel PanelOf(const std::vector<LawOverSpeed>& laws, const char* title, con
 }
 
 /// Kp and Kd of each bearing over speed; nothing where one of the laws is a state-space law.
-void AddGains(const config::RigFile& rig, const law::LawConfig& table, svg::Figure& figure) {
+void AddGains(const configuration::RigFile& rig, const law::LawConfig& table, svg::Figure& figure) {
   const bool gains = !table.axes.empty() &&
                      std::ranges::none_of(
                          table.schedule, [](const auto& at) { return at.state_space.has_value(); });
@@ -110,7 +110,7 @@ bool LawOverSpeed::stable() const {
 
 double LawOverSpeed::largest_peak() const { return *std::ranges::max_element(peak); }
 
-std::vector<LawOverSpeed> FiguresOverSpeed(const config::RigFile& rig,
+std::vector<LawOverSpeed> FiguresOverSpeed(const configuration::RigFile& rig,
                                            const std::vector<NamedLaw>& laws) {
   constexpr int kSteps = 20;
   std::vector<LawOverSpeed> out;
@@ -135,7 +135,7 @@ std::vector<LawOverSpeed> FiguresOverSpeed(const config::RigFile& rig,
 
 void PrintOverSpeed(const std::vector<LawOverSpeed>& laws) {
   constexpr std::size_t kEvery = 2;
-  TextTable table;
+  report::TextTable table;
   std::vector<std::string> head{"rpm"};
   for (const LawOverSpeed& law : laws) head.push_back("|S| " + law.name);
   for (const LawOverSpeed& law : laws) head.push_back("damping " + law.name);
@@ -162,7 +162,7 @@ nlohmann::ordered_json OverSpeedJson(const std::vector<LawOverSpeed>& laws) {
   return json;
 }
 
-std::string SchedulePage(const config::RigFile& rig, const std::vector<LawOverSpeed>& laws,
+std::string SchedulePage(const configuration::RigFile& rig, const std::vector<LawOverSpeed>& laws,
                          const law::LawConfig& table, const design::GateResult& result) {
   svg::Figure figure;
   figure.columns = 2;

@@ -21,7 +21,7 @@ struct LawOverSpeed {
 };
 
 /// From rest to the rated speed; the last law is the table.
-[[nodiscard]] std::vector<LawOverSpeed> FiguresOverSpeed(const config::RigFile& rig,
+[[nodiscard]] std::vector<LawOverSpeed> FiguresOverSpeed(const configuration::RigFile& rig,
                                                          const std::vector<NamedLaw>& laws);
 
 /// Table and, in one sentence, what the table of laws buys.
@@ -29,7 +29,7 @@ void PrintOverSpeed(const std::vector<LawOverSpeed>& laws);
 
 [[nodiscard]] nlohmann::ordered_json OverSpeedJson(const std::vector<LawOverSpeed>& laws);
 
-[[nodiscard]] std::string SchedulePage(const config::RigFile& rig,
+[[nodiscard]] std::string SchedulePage(const configuration::RigFile& rig,
                                        const std::vector<LawOverSpeed>& laws,
                                        const law::LawConfig& table,
                                        const design::GateResult& result);

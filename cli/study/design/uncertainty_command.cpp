@@ -15,7 +15,7 @@
 #include "design/uncertainty/uncertain_plant.hpp"
 #include "report/svg/figure.hpp"
 #include "report/text/text_table.hpp"
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -29,7 +29,8 @@ struct UncertaintyOptions {
 };
 
 /// |P_ii| [um/A] of every drawn rig at one speed, a panel per axis.
-svg::Figure Fan(const config::RigFile& rig, const std::vector<uncertainty::Parameter>& parameters,
+svg::Figure Fan(const configuration::RigFile& rig,
+                const std::vector<uncertainty::Parameter>& parameters,
                 const UncertaintyOptions& options) {
   constexpr int kPoints = 400;
   svg::Figure figure;
@@ -80,7 +81,7 @@ ExitStatus Run(const UncertaintyOptions& options) {
   const auto rig = LoadRig(options.rig);
   const auto parameters = ParametersOf(rig, options.from);
   fmt::print("rig {}, uncertainty {}\n", rig.numbers.name, SourceText(options.from));
-  TextTable table;
+  report::TextTable table;
   table.Add({"parameter", "rig file", "least", "most"});
   nlohmann::ordered_json json;
   for (const auto& p : parameters) {

@@ -12,7 +12,7 @@
 
 #include "tests/support/scratch_folder.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 namespace {
 
 using balancing::BalanceRequest;
@@ -176,4 +176,4 @@ TEST_F(Balanced, DrawsAPanelPerBearingAndNothingWithoutAPath) {
 }
 
 }  // namespace
-}  // namespace levitas::cli
+}  // namespace levitas::report

@@ -11,7 +11,7 @@
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/report/diagnosis/reports.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 namespace {
 
 using diagnosis::DiagnosisReport;
@@ -82,6 +82,31 @@ TEST(DiagnosisJson, HasAForecastOnlyWhereOneWasMade) {
   EXPECT_TRUE(DiagnosisJson(OneCause())["forecast"].is_null());
 }
 
+// Scripts of version 1.0 read these.
+TEST(DiagnosisJson, HasWhatValidationDataSayUnderOneWordAndUnderTheOldKeys) {
+  DiagnosisReport report = OneCause();
+  report.validation.nominal_percent = 11.0;
+  report.validation.calibrated_percent = 22.0;
+  report.validation.extended_percent = 33.0;
+  report.candidates[0].validation_nat = 44.0;
+  report.candidates[1].validation_nat.reset();
+  diagnosis::ReportRun run;
+  run.name = "v.mat";
+  report.validation_runs = report.fitted_runs = {run};
+  const auto json = nlohmann::json::parse(DiagnosisJson(report).dump());
+  for (const std::string word : {"validation", "holdout"}) {
+    EXPECT_EQ(json["fit_percent"][word + "_before"], 11.0);
+    EXPECT_EQ(json["fit_percent"][word + "_calibrated"], 22.0);
+    EXPECT_EQ(json["fit_percent"][word + "_after"], 33.0);
+  }
+  const std::string old_nat = std::string("held") + "_out_nat";
+  EXPECT_EQ(json["candidates"][0]["validation_nat"], 44.0);
+  EXPECT_EQ(json["candidates"][0][old_nat], 44.0);
+  EXPECT_FALSE(json["candidates"][1].contains(old_nat));
+  ASSERT_EQ(json["runs_validation"].size(), 1U);
+  EXPECT_EQ(json["runs_validation"], json[std::string("runs_held") + "_out"]);
+}
+
 TEST(WriteDiagnosis, WritesTheFourFilesItNames) {
   const levitas::test::ScratchFolder folder;
   const std::string here = folder / "";
@@ -101,4 +126,4 @@ TEST(WriteDiagnosis, RefusesAFolderThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace levitas::cli
+}  // namespace levitas::report

@@ -6,7 +6,7 @@
 #include "report/diagnosis/rotor_sketch.hpp"
 #include "tests/unit/report/diagnosis/reports.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 namespace {
 
 using diagnosis::DiagnosisReport;
@@ -166,4 +166,4 @@ TEST(DiagnosisPage, PutsErrorsOfARecordBeforeTheVerdict) {
 }
 
 }  // namespace
-}  // namespace levitas::cli
+}  // namespace levitas::report

@@ -8,7 +8,7 @@
 #include "diagnosis/report/report_text.hpp"
 #include "tests/unit/report/diagnosis/reports.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 namespace {
 
 using diagnosis::DiagnosisReport;
@@ -205,4 +205,4 @@ TEST_F(Printed, TellsWhichCandidatesTheScreenAloneHasSeen) {
 }
 
 }  // namespace
-}  // namespace levitas::cli
+}  // namespace levitas::report

@@ -7,7 +7,7 @@
 
 #include "report/diagnosis/diagnosis_page.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 namespace {
 
 using ::testing::AllOf;
@@ -66,4 +66,4 @@ TEST(ForecastSectionTest, IsNotThereWithoutValidationRecords) {
 }
 
 }  // namespace
-}  // namespace levitas::cli
+}  // namespace levitas::report

@@ -9,7 +9,7 @@
 #include "report/diagnosis/diagnosis_page.hpp"
 #include "report/diagnosis/diagnosis_text.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 namespace {
 
 using ::testing::HasSubstr;
@@ -66,4 +66,4 @@ TEST(LevitationWords, OfARigThatWasNotJudgedAreNullInTheJson) {
 }
 
 }  // namespace
-}  // namespace levitas::cli
+}  // namespace levitas::report

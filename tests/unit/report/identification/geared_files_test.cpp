@@ -11,7 +11,7 @@
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/report/identification/written.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 namespace {
 
 using identification::GearedLine;
@@ -167,4 +167,4 @@ TEST(GearedPicture, WithoutAPathIsNotWritten) {
 }
 
 }  // namespace
-}  // namespace levitas::cli
+}  // namespace levitas::report

@@ -8,7 +8,7 @@
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/report/identification/written.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 namespace {
 
 using identification::LawFit;
@@ -62,4 +62,4 @@ TEST(LawPicture, HasAColumnPerControllerWithMagnitudeAndPhase) {
 }
 
 }  // namespace
-}  // namespace levitas::cli
+}  // namespace levitas::report

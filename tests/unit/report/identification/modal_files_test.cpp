@@ -6,17 +6,17 @@
 #include "tests/support/paths.hpp"
 #include "tests/support/scratch_folder.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 namespace {
 
 TEST(RigFileOfAnIdentification, ReadsAsTheRigThatWasWritten) {
   const levitas::test::ScratchFolder folder;
-  const config::RigFile rig =
-      config::LoadRig(levitas::test::SourceFolder() + "/config/rigs/flexible_rotor.yaml");
+  const configuration::RigFile rig =
+      configuration::LoadRig(levitas::test::SourceFolder() + "/config/rigs/flexible_rotor.yaml");
   WriteRigFile(folder / "rig.yaml", rig);
-  const config::RigFile again = config::LoadRig(folder / "rig.yaml");
+  const configuration::RigFile again = configuration::LoadRig(folder / "rig.yaml");
   EXPECT_EQ(again.numbers.channels, rig.numbers.channels);
-  EXPECT_EQ(config::WriteRig(again), config::WriteRig(rig));
+  EXPECT_EQ(configuration::WriteRig(again), configuration::WriteRig(rig));
 }
 
 TEST(RigFileOfAnIdentification, RefusesAFolderThatIsNotThere) {
@@ -25,4 +25,4 @@ TEST(RigFileOfAnIdentification, RefusesAFolderThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace levitas::cli
+}  // namespace levitas::report

@@ -11,7 +11,7 @@
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/report/identification/written.hpp"
 
-namespace levitas::cli {
+namespace levitas::report {
 namespace {
 
 using levitas::test::ScratchFolder;
@@ -134,4 +134,4 @@ TEST(Bode, WithoutAPathIsNotWritten) {
 }
 
 }  // namespace
-}  // namespace levitas::cli
+}  // namespace levitas::report

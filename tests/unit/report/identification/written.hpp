@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace levitas::cli::test {
+namespace levitas::report::test {
 
 inline std::string Content(const std::string& path) {
   std::ifstream file(path);
@@ -33,4 +33,4 @@ inline std::size_t Count(const std::string& text, const std::string& what) {
   return count;
 }
 
-}  // namespace levitas::cli::test
+}  // namespace levitas::report::test

@@ -11,7 +11,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-svg::Figure Picture(const config::RigFile& rig) {
+svg::Figure Picture(const configuration::RigFile& rig) {
   const auto campbell =
       analysis::FreeCampbell(rig.plant, 1.25 * rig.numbers.max_speed_rad_per_s, 4);
   if (!rig.plant.shafts.empty()) return ModesPicture(rig, campbell, std::nullopt);

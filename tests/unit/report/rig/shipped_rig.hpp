@@ -9,12 +9,13 @@
 
 namespace levitas::report::test {
 
-inline config::RigFile Rig(const std::string& name) {
-  return config::LoadRig(config::FindConfig(name, "rigs"));
+inline configuration::RigFile Rig(const std::string& name) {
+  return configuration::LoadRig(configuration::FindConfig(name, "rigs"));
 }
 
-inline law::LawConfig Law(const std::string& name, const config::RigFile& rig) {
-  return config::LoadController(config::FindConfig(name, "controllers"), rig.numbers).law;
+inline law::LawConfig Law(const std::string& name, const configuration::RigFile& rig) {
+  return configuration::LoadController(configuration::FindConfig(name, "controllers"), rig.numbers)
+      .law;
 }
 
 inline const svg::Series* Named(const svg::Panel& panel, const std::string& name) {

@@ -23,7 +23,8 @@ RecordToCompare Whirling(const std::string& label, double radius_m,
   RecordToCompare made;
   made.label = label;
   made.path = label + ".lcm";
-  made.rig = config::LoadRig(levitas::test::SourceFolder() + "/config/rigs/flexible_rotor.yaml");
+  made.rig =
+      configuration::LoadRig(levitas::test::SourceFolder() + "/config/rigs/flexible_rotor.yaml");
   session::Recording& r = made.recording;
   r.period_ns = made.rig.numbers.period_ns;
   r.channels = made.rig.numbers.channels;

@@ -7,7 +7,7 @@
 
 #include "configuration/rig_file.hpp"
 #include "report/session/recording.hpp"
-#include "session/session_writer.hpp"
+#include "session/log/session_writer.hpp"
 
 namespace levitas::report {
 namespace {
@@ -15,11 +15,12 @@ namespace {
 /// One cycle of the shipped rotor; `probe` is the sign in the rig file of the probe of de_y,
 /// `coils` that of the coils of nde_x.
 Recording Recorded(double probe, double coils, const cycle::CycleRecord& record) {
-  config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+  configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
   rig.plant.sensor_polarity[1] = rig.numbers.sensor_polarity[1] = probe;
   rig.plant.actuator_polarity[2] = rig.numbers.actuator_polarity[2] = coils;
   session::SessionHeader header;
-  header.rig_yaml = config::WriteRig(rig);
+  header.rig_yaml = configuration::WriteRig(rig);
   header.period_ns = rig.numbers.period_ns;
   header.channels = rig.numbers.channels;
   const std::string path =

@@ -21,16 +21,17 @@ std::string TextOf(const std::string& path) {
 
 session::SessionHeader Header() {
   session::SessionHeader header;
-  header.rig_yaml = TextOf(config::FindConfig("flexible_rotor", "rigs"));
-  header.controller_yaml = TextOf(config::FindConfig("flexible_rotor_commissioned", "controllers"));
+  header.rig_yaml = TextOf(configuration::FindConfig("flexible_rotor", "rigs"));
+  header.controller_yaml =
+      TextOf(configuration::FindConfig("flexible_rotor_commissioned", "controllers"));
   return header;
 }
 
 /// A verdict on a run that stood, with a measured peak or without.
 verdict::Verdict Standing(bool measured) {
-  const auto rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
-  const auto controller = config::LoadController(
-      config::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
+  const auto rig = configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
+  const auto controller = configuration::LoadController(
+      configuration::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
   verdict::Verdict verdict;
   verdict.inputs.sensitivity = {analysis::SensitivityPeaks(rig.plant, controller.law, 0.0)};
   if (!measured) return verdict;

@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "configuration/rig_file.hpp"
-#include "plant_sim/plant/effects/clear_entry.hpp"
+#include "plant_sim/plant/applied_effects/clear_entry.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 #include "report/signature/orders.hpp"
 #include "tests/support/geared_rigs.hpp"
@@ -74,11 +74,11 @@ TEST(EffectsDocument, HasAnEntryOfEveryEffectThatItsRigTakes) {
     ++entries;
     const bool geared = row->place == effect::Place::kGear;
     const std::string path =
-        config::FindConfig(geared ? "geared_rotor_4dof" : "flexible_rotor", "rigs");
+        configuration::FindConfig(geared ? "geared_rotor_4dof" : "flexible_rotor", "rigs");
     std::ifstream file(path);
     std::ostringstream text;
     text << file.rdbuf() << "\neffects:\n" << line << "\n";
-    const config::RigFile rig = config::ParseRig(text.str(), path);
+    const configuration::RigFile rig = configuration::ParseRig(text.str(), path);
     ASSERT_EQ(rig.plant.effects.size(), 1U) << line;
     EXPECT_EQ(rig.plant.effects.front().id, row->id) << line;
   }

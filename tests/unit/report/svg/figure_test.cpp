@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "common/problem.hpp"
-#include "report/svg/escaped_text.hpp"
 
 namespace levitas::svg {
 namespace {
@@ -34,12 +33,6 @@ TEST(Figure, NamesTitlesAxesAndSeries) {
     EXPECT_THAT(svg, HasSubstr(text));
   EXPECT_EQ(svg.rfind("<svg", 0), 0U);
   EXPECT_EQ(svg.substr(svg.size() - 7), "</svg>\n");
-}
-
-TEST(Escaped, LeavesNothingThatEndsATagOrAnAttributeAndDoesNotEscapeTwice) {
-  EXPECT_EQ(Escaped("a<b>&\"'"), "a&lt;b&gt;&amp;&quot;'");
-  EXPECT_EQ(Escaped("&amp;"), "&amp;amp;");  // the text was "&amp;", and is shown so
-  EXPECT_EQ(Escaped(""), "");
 }
 
 TEST(Figure, EscapesWhatWouldEndATag) {

@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-namespace levitas::svg {
+namespace levitas::html {
 
 /// With entities for & < > and the double quote.
 [[nodiscard]] std::string Escaped(std::string_view text);
 
-}  // namespace levitas::svg
+}  // namespace levitas::html

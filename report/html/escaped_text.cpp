@@ -1,6 +1,6 @@
-#include "report/svg/escaped_text.hpp"
+#include "report/html/escaped_text.hpp"
 
-namespace levitas::svg {
+namespace levitas::html {
 
 std::string Escaped(std::string_view text) {
   std::string escaped;
@@ -25,4 +25,4 @@ std::string Escaped(std::string_view text) {
   return escaped;
 }
 
-}  // namespace levitas::svg
+}  // namespace levitas::html
