@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "session/block_events.hpp"
+#include "session/log/block_events.hpp"
 
 namespace levitas::verdict {
 

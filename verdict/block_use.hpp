@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "session/session_header.hpp"
+#include "session/log/session_header.hpp"
 
 namespace levitas::verdict {
 

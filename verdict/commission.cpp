@@ -3,12 +3,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "analysis/speed_sweep.hpp"
 #include "configuration/rig_file.hpp"
 #include "plant_sim/rotor/torsion_line.hpp"
-#include "session/session_reader.hpp"
+#include "session/exchange/recording_writer.hpp"
+#include "session/log/session_reader.hpp"
 
 namespace levitas::verdict {
 namespace {
@@ -25,7 +27,7 @@ void Complete(Provenance& provenance, const session::SessionHeader& header,
               const std::string& within, const RigNumbers& rig) {
   if (provenance.port.empty()) provenance.port = header.source;
   if (provenance.scenario.empty() && !header.scenario_yaml.empty()) {
-    provenance.scenario = config::ParseScenario(header.scenario_yaml, within, rig).name;
+    provenance.scenario = configuration::ParseScenario(header.scenario_yaml, within, rig).name;
   }
   provenance.program_version = header.program_version;
   provenance.pace = header.pace;
@@ -47,9 +49,62 @@ bool Any(const AxisArray& signal) {
   return std::any_of(signal.begin(), signal.end(), [](double value) { return value != 0.0; });
 }
 
+/// What a session is read for, gathered record by record in one pass.
+class Gathered {
+ public:
+  Gathered(const std::string& name, const configuration::RigFile& rig, double standstill_rad_per_s)
+      : statistics_(rig.numbers, standstill_rad_per_s, kSettleAfterLiftS),
+        jumps_(rig, standstill_rad_per_s, kSettleAfterLiftS),
+        torsion_(standstill_rad_per_s, kSettleAfterLiftS, rig.numbers.period_s()),
+        couplings_(rotor::GaugedCouplings(rig.plant.shafts)),
+        test_signals_(name, rig.numbers) {}
+
+  void Read(session::SessionReader& reader) {
+    if (!couplings_.empty()) reader.KeepTorsion();
+    cycle::CycleRecord record;
+    while (reader.Next(record)) Add(record);
+    last_cycle_ = record.in.cycle;
+    test_signals_.SetDamage(reader.damage().Text());
+  }
+
+  [[nodiscard]] std::uint64_t first_cycle() const { return first_cycle_.value_or(0); }
+  [[nodiscard]] std::uint64_t last_cycle() const { return last_cycle_; }
+  /// The first record, then all from the first test signal on; empty where none was given.
+  [[nodiscard]] std::optional<session::Recording> TestSignals() {
+    if (!excited_) return {};
+    return test_signals_.Finish();
+  }
+  void Fill(const session::SessionReader& reader, Inputs& inputs) const {
+    inputs.session = statistics_.Figures();
+    inputs.probe_jumps = jumps_.Found();
+    inputs.broken_off_steps = jumps_.BrokenOff();
+    inputs.torsion = torsion_.Of(reader.torsion(), couplings_);
+  }
+
+ private:
+  void Add(const cycle::CycleRecord& record) {
+    statistics_.Add(record);
+    jumps_.Add(record);
+    if (!couplings_.empty()) torsion_.Add(record);
+    excited_ = excited_ || Any(record.in.op.excitation_a) || Any(record.in.op.excitation_m);
+    // The record's time counts from its first row.
+    if (excited_ || !first_cycle_) test_signals_.Take(record);
+    if (!first_cycle_) first_cycle_ = record.in.cycle;
+  }
+
+  SessionStatistics statistics_;
+  ProbeJumps jumps_;
+  TorsionLoads torsion_;
+  std::vector<std::string> couplings_;
+  session::RecordingWriter test_signals_;
+  bool excited_{false};
+  std::optional<std::uint64_t> first_cycle_;
+  std::uint64_t last_cycle_{};
+};
+
 /// From rest to the highest speed of the run if it was spun.
-analysis::SpeedSweep Sensitivities(const config::RigFile& rig,
-                                   const config::ControllerFile& controller,
+analysis::SpeedSweep Sensitivities(const configuration::RigFile& rig,
+                                   const configuration::ControllerFile& controller,
                                    double top_speed_rad_per_s) {
   const bool spun = top_speed_rad_per_s > controller.supervisor.sequence.standstill_rad_per_s;
   return analysis::SensitivityOverSpeed(rig.plant, controller.law,
@@ -62,39 +117,20 @@ Verdict Commission(const CommissionOptions& options) {
   session::SessionReader reader(options.session_path);
   const session::SessionHeader& header = reader.header();
   const std::string within = options.session_path + " (header)";
-  const config::RigFile rig = config::ParseRig(header.rig_yaml, within);
-  const config::ControllerFile controller =
-      config::ParseController(header.controller_yaml, within, rig.numbers);
-  SessionStatistics statistics(rig.numbers, controller.supervisor.sequence.standstill_rad_per_s,
-                               kSettleAfterLiftS);
-  ProbeJumps jumps(rig, controller.supervisor.sequence.standstill_rad_per_s, kSettleAfterLiftS);
-  TorsionLoads torsion(controller.supervisor.sequence.standstill_rad_per_s, kSettleAfterLiftS,
-                       rig.numbers.period_s());
-  const std::vector<std::string> couplings = rotor::GaugedCouplings(rig.plant.shafts);
-  if (!couplings.empty()) reader.KeepTorsion();
-  cycle::CycleRecord record;
-  bool excited = false;
-  std::uint64_t first_cycle = 0;
-  while (reader.Next(record)) {
-    if (first_cycle == 0) first_cycle = record.in.cycle;
-    statistics.Add(record);
-    jumps.Add(record);
-    if (!couplings.empty()) torsion.Add(record);
-    excited = excited || Any(record.in.op.excitation_a) || Any(record.in.op.excitation_m);
-  }
+  const configuration::RigFile rig = configuration::ParseRig(header.rig_yaml, within);
+  const configuration::ControllerFile controller =
+      configuration::ParseController(header.controller_yaml, within, rig.numbers);
+  Gathered gathered(options.session_path, rig, controller.supervisor.sequence.standstill_rad_per_s);
+  gathered.Read(reader);
 
   Inputs inputs;
   inputs.rig = rig.numbers;
-  inputs.session = statistics.Figures();
-  inputs.probe_jumps = jumps.Found();
-  inputs.torsion = torsion.Of(reader.torsion(), couplings);
-  inputs.broken_off_steps = jumps.BrokenOff();
+  gathered.Fill(reader, inputs);
   analysis::SpeedSweep sweep = Sensitivities(rig, controller, inputs.session.top_speed_rad_per_s);
   inputs.sensitivity = std::move(sweep.speeds);
   inputs.worst_sensitivity = sweep.worst;
-  if (excited) {
-    inputs.measured =
-        MeasureSensitivity(options.session_path, rig, controller.law, inputs.sensitivity);
+  if (const auto signals = gathered.TestSignals()) {
+    inputs.measured = MeasureSensitivity(*signals, rig, controller.law, inputs.sensitivity);
   }
   inputs.damping = DampingOver(inputs.sensitivity, rig.plant, controller.law);
   inputs.modes = DampingOfModes(rig.plant, controller.law, inputs.session.top_speed_rad_per_s);
@@ -110,8 +146,8 @@ Verdict Commission(const CommissionOptions& options) {
   if (inputs.timing) inputs.provenance.trip_file = inputs.timing->trip_file;
   std::vector<std::string> blocks;
   for (const auto& block : controller.synchronous.blocks) blocks.push_back(block.name);
-  inputs.blocks =
-      BlocksOf(reader.events(), first_cycle, record.in.cycle, rig.numbers.period_s(), blocks);
+  inputs.blocks = BlocksOf(reader.events(), gathered.first_cycle(), gathered.last_cycle(),
+                           rig.numbers.period_s(), blocks);
   inputs.saves_bias = !controller.bias.empty();
   inputs.trip_text = FirstTripText(reader.events());
   inputs.incomplete_reason = options.incomplete_reason.empty()

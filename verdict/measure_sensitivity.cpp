@@ -6,14 +6,14 @@
 #include "common/problem.hpp"
 #include "identification/frf/frequency_response.hpp"
 #include "identification/frf/measured_sensitivity.hpp"
-#include "session/recording.hpp"
+#include "session/exchange/recording.hpp"
 
 namespace levitas::verdict {
 namespace {
 
 constexpr double kSameSpeedRadPerS = 0.1;  // about 1 rpm
 
-analysis::SensitivityResult ComputedAt(double speed_rad_per_s, const config::RigFile& rig,
+analysis::SensitivityResult ComputedAt(double speed_rad_per_s, const configuration::RigFile& rig,
                                        const law::LawConfig& law,
                                        std::span<const analysis::SensitivityResult> known) {
   const auto found = std::ranges::find_if(known, [&](const analysis::SensitivityResult& one) {
@@ -49,12 +49,11 @@ MeasuredSpeed MeasuredAt(const identification::FrequencyResponse& response,
 
 }  // namespace
 
-MeasuredSensitivity MeasureSensitivity(const std::string& session_path, const config::RigFile& rig,
-                                       const law::LawConfig& law,
+MeasuredSensitivity MeasureSensitivity(const session::Recording& record,
+                                       const configuration::RigFile& rig, const law::LawConfig& law,
                                        std::span<const analysis::SensitivityResult> computed) {
   MeasuredSensitivity out;
   try {
-    const auto record = session::LoadRecording(session_path, rig);
     const double delay_s = rig.plant.delay_samples * rig.numbers.period_s();
     for (const auto& response : identification::EstimateResponses(record, delay_s)) {
       out.speeds.push_back(

@@ -19,6 +19,10 @@
 #include "analysis/sensitivity.hpp"
 #include "configuration/rig_file.hpp"
 
+namespace levitas::session {
+struct Recording;
+}
+
 namespace levitas::verdict {
 
 struct MeasuredAxis {
@@ -43,9 +47,9 @@ struct MeasuredSensitivity {
   std::string why_not;                ///< one clause; empty when there are speeds
 };
 
-/// Of a session that holds test signals; `computed`: of this rig and law at some speeds.
+/// Of a record that holds test signals; `computed`: of this rig and law at some speeds.
 [[nodiscard]] MeasuredSensitivity MeasureSensitivity(
-    const std::string& session_path, const config::RigFile& rig, const law::LawConfig& law,
+    const session::Recording& record, const configuration::RigFile& rig, const law::LawConfig& law,
     std::span<const analysis::SensitivityResult> computed);
 
 /// The axis' measured and graded peak at this speed (within 1 rpm); null without one.

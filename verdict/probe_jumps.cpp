@@ -27,7 +27,8 @@ Eigen::MatrixXd StaticResponse(const plant::PlantConfig& plant) {
 
 }  // namespace
 
-ProbeJumps::ProbeJumps(const config::RigFile& rig, double standstill_rad_per_s, double settle_s)
+ProbeJumps::ProbeJumps(const configuration::RigFile& rig, double standstill_rad_per_s,
+                       double settle_s)
     : frame_(rig.numbers),
       channels_(rig.numbers.channels),
       period_s_(rig.numbers.period_s()),

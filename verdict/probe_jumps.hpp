@@ -32,7 +32,7 @@
 
 #include "configuration/rig_file.hpp"
 #include "controller/cycle/cycle_io.hpp"
-#include "session/record_frame.hpp"
+#include "session/log/record_frame.hpp"
 #include "verdict/phase.hpp"
 
 namespace levitas::verdict {
@@ -55,7 +55,7 @@ class ProbeJumps {
   static constexpr double kOfSteps = 8.0;    // chosen: normal noise reaches it once in 1e15 cycles
 
   /// `standstill_rad_per_s`, `settle_s`: as for SessionStatistics.
-  ProbeJumps(const config::RigFile& rig, double standstill_rad_per_s, double settle_s);
+  ProbeJumps(const configuration::RigFile& rig, double standstill_rad_per_s, double settle_s);
 
   /// Call once per record, in order.
   void Add(const cycle::CycleRecord& record);

@@ -7,7 +7,7 @@
 //            rms = sqrt(mean(r^2)). Sensor noise is in the readings and so in the figures.
 // Current    commanded control current, excitation included, in the bearing frame: mean (static
 //            load), rms about the mean, largest magnitude.
-// Units      SI. Frame: bearing frame, as session/record_frame.hpp gives it.
+// Units      SI. Frame: bearing frame, as session/log/record_frame.hpp gives it.
 // Thread     one; offline, allocates.
 // Failure    std::invalid_argument for a rig whose polarity is neither +1 nor -1. A cycle without a
 //            new sensor frame counts as missing and is left out of the orbit; readings that are not
@@ -23,7 +23,7 @@
 #include "common/rig_numbers.hpp"
 #include "common/rotational_speed.hpp"
 #include "controller/cycle/cycle_io.hpp"
-#include "session/record_frame.hpp"
+#include "session/log/record_frame.hpp"
 #include "verdict/phase.hpp"
 
 namespace levitas::verdict {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "session/torsion_instants.hpp"
+#include "session/log/torsion_instants.hpp"
 
 namespace levitas::verdict {
 
