@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "session/recording.hpp"
+#include "session/exchange/recording.hpp"
 
 namespace levitas::analysis {
 

@@ -19,7 +19,7 @@
 #include <optional>
 #include <vector>
 
-#include "session/recording.hpp"
+#include "session/exchange/recording.hpp"
 
 namespace levitas::analysis {
 

@@ -13,7 +13,7 @@
 #include "common/output_file.hpp"
 #include "common/problem.hpp"
 #include "configuration/rig_file.hpp"
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 #include "session_index/catalogue_path.hpp"
 
 namespace levitas::cli {
@@ -40,7 +40,7 @@ std::string ConfigFolderOf(const std::string& option) {
 std::string PathGiven(const std::string& value, const std::string& folder) {
   if (folder.empty()) return value;
   try {
-    return config::FindConfig(value, folder);
+    return configuration::FindConfig(value, folder);
   } catch (const BadInput&) {
     return {};  // the command says it better
   }

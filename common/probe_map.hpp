@@ -3,7 +3,7 @@
 //
 // Users      the control cycle (controller/cycle), the simulated rig (plant_sim/plant) and whoever
 //            takes frames off the wire or out of a file into the bearing frame or back:
-//            session/record_frame.hpp. Everything else has numbers of the bearing frame only.
+//            session/log/record_frame.hpp. Everything else has numbers of the bearing frame only.
 // Equation   q_B = P_s q_S (positions), ic_S = P_a ic_B (currents); P diagonal with +-1.
 // Frames     S: as the rig is wired. B: bearing frame, positive x towards the coil that a positive
 //            control current strengthens. The two are types, so one cannot be taken for the other.

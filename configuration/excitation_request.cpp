@@ -7,7 +7,7 @@
 #include "configuration/schema/schema.hpp"
 #include "configuration/text/reader.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 // Steps of work that the table takes: each line adds to each sample, and each sample costs two
@@ -57,4 +57,4 @@ scenario::Step ParseExcitation(const std::string& text, const std::string& name,
   return step;
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

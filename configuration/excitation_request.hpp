@@ -19,7 +19,7 @@
 #include "common/rig_numbers.hpp"
 #include "controller/scenario/scenario_config.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 
 inline constexpr double kLongestHoldSeconds = 3600.0;
 inline constexpr std::size_t kMostSignals = 8;
@@ -31,4 +31,4 @@ inline constexpr double kTermsPerSample = 20.0;  ///< what a sample costs beside
 [[nodiscard]] scenario::Step ParseExcitation(const std::string& text, const std::string& name,
                                              const RigNumbers& rig);
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

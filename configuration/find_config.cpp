@@ -9,7 +9,7 @@
 #include "configuration/rig_file.hpp"
 #include "configuration/shipped_names.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 namespace fs = std::filesystem;
@@ -61,4 +61,4 @@ std::string FindConfig(const std::string& name, const std::string& kind) {
   throw BadInput(text);
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

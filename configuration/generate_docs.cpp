@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   std::ofstream file(argv[1], std::ios::binary);
-  file << levitas::config::ConfigurationDocument();
+  file << levitas::configuration::ConfigurationDocument();
   if (file.flush()) return 0;
   std::fprintf(stderr, "generate_docs: %s cannot be written\n", argv[1]);
   return 1;

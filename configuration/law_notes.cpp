@@ -7,7 +7,7 @@
 #include "common/rotational_speed.hpp"
 #include "controller/law/hidden_states.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 bool IsIntegrator(const law::ModalBlock& block, bool discrete) {
@@ -56,4 +56,4 @@ std::vector<std::string> LawNotes(const law::LawConfig& law) {
   return notes;
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -13,9 +13,9 @@
 
 #include "controller/law/law_config.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 
 /// One sentence per unstable block, and one for all integrators; empty for a law that decays.
 [[nodiscard]] std::vector<std::string> LawNotes(const law::LawConfig& law);
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -9,7 +9,7 @@
 #include "configuration/text/read_file.hpp"
 #include "configuration/text/writer.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 
 std::string ReadText(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -89,4 +89,4 @@ std::string WriteScenario(const scenario::ScenarioConfig& scenario) {
   return writer.text();
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -20,7 +20,7 @@
 #include "hil/gpio/line_config.hpp"
 #include "plant_sim/plant/plant_config.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 
 /// What the commands use with this rig unless they are told otherwise; empty: the general choice.
 struct RunDefaults {
@@ -73,4 +73,4 @@ struct ControllerFile {
 /// files are found in $LEVITAS_CONFIG, else beside the binary's build tree or installation.
 [[nodiscard]] std::string FindConfig(const std::string& name, const std::string& kind);
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -4,7 +4,7 @@
 
 #include "common/problem.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 /// With a slash it is a path beside the rig's file; without one, the name of a shipped file.
@@ -56,4 +56,4 @@ std::string FindScenario(const RunDefaults& rig, const std::string& given,
   return Find("scenario", rig.scenario, given, otherwise);
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -9,7 +9,7 @@
 
 #include "configuration/rig_file.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 
 /// Path of the controller file: the `given` one, else the rig's own, else `otherwise`.
 [[nodiscard]] std::string FindController(const RunDefaults& rig, const std::string& given,
@@ -24,4 +24,4 @@ namespace levitas::config {
 [[nodiscard]] ControllerFile LoadFound(const std::string& path, const RigFile& rig,
                                        const std::string& given);
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

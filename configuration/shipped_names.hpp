@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace levitas::config {
+namespace levitas::configuration {
 
 /// Names, sorted, of the shipped files of a kind: "rigs", "controllers", "scenarios".
 [[nodiscard]] std::vector<std::string> ShippedNames(const std::string& kind);
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

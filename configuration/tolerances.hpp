@@ -6,7 +6,7 @@
 // Default  what a carefully commissioned rig shows; a rig file states its own under `tolerances`.
 // Thread   plain data.
 
-namespace levitas::config {
+namespace levitas::configuration {
 
 struct Tolerances {
   double current_gain{0.03};            ///< ki, per axis
@@ -32,4 +32,4 @@ struct Tolerances {
   double gear_runout_m{1e-6};           ///< each of cosine and sine, per wheel
 };
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -97,7 +97,7 @@ HttpAnswer AnswerExcitation(const std::string& body, const std::optional<RigNumb
     RefuseUnknownKeys(request, {"hold_s", "orbit_limit_um", "excitation"});
     if (!rig) return Answer(kHttpConflict, "refused", "no controller was heard yet");
     yaml = StepYaml(request);
-    (void)config::ParseExcitation(yaml, "request", *rig);
+    (void)configuration::ParseExcitation(yaml, "request", *rig);
   } catch (const std::exception& problem) {
     return NotUnderstood(problem);
   }

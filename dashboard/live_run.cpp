@@ -8,8 +8,8 @@
 #include "lcmtypes/checked_decode.hpp"
 #include "plant_sim/plant/slowest_amplifier.hpp"
 #include "plant_sim/plant/train_model.hpp"
-#include "session/block_events.hpp"
-#include "session/record_codec.hpp"
+#include "session/log/block_events.hpp"
+#include "session/log/record_codec.hpp"
 #include "transport/lcm_network.hpp"
 
 namespace levitas::dashboard {
@@ -64,7 +64,8 @@ bool LiveRun::TakeHeader(std::span<const std::uint8_t> payload) {
                      header.rig_yaml == header_.rig_yaml;
   if (known) return true;
   try {
-    const config::RigFile rig = config::ParseRig(header.rig_yaml, "the announced rig");
+    const configuration::RigFile rig =
+        configuration::ParseRig(header.rig_yaml, "the announced rig");
     rig_ = rig.numbers;
     amplifier_hz_ = plant::SlowestAmplifierHz(rig.plant);
     speed_ratios_ = RatiosOfBearings(rig.plant);
@@ -87,8 +88,8 @@ void LiveRun::TakeController(const session::SessionHeader& header) {
   saves_bias_ = false;
   if (header.controller_yaml.empty()) return;
   try {
-    const config::ControllerFile controller =
-        config::ParseController(header.controller_yaml, "the announced controller", *rig_);
+    const configuration::ControllerFile controller =
+        configuration::ParseController(header.controller_yaml, "the announced controller", *rig_);
     for (const auto& block : controller.synchronous.blocks) {
       blocks_.push_back({block.name, false, {}});
     }

@@ -19,7 +19,7 @@
 
 #include "common/rig_numbers.hpp"
 #include "dashboard/sample_store.hpp"
-#include "session/session_header.hpp"
+#include "session/log/session_header.hpp"
 
 namespace levitas::dashboard {
 

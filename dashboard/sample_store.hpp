@@ -5,7 +5,7 @@
 //           gap; only those make a spectrum or an oscilloscope's picture.
 // Envelope  smallest and largest value of each channel per bucket of `bucket_cycles`: a vibration
 //           faster than any screen keeps its amplitude, which every n-th sample would not show.
-// Frames    bearing frame, as session/record_frame.hpp gives it.
+// Frames    bearing frame, as session/log/record_frame.hpp gives it.
 // Units     SI. Thread one. Failure: a batch of other axes than the rig's is refused.
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "common/rig_numbers.hpp"
-#include "session/record_frame.hpp"
+#include "session/log/record_frame.hpp"
 
 namespace levitas::dashboard {
 

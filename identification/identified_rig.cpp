@@ -29,7 +29,7 @@ void SetMagnet(plant::BearingConfig& bearing, double ki_n_per_a, double ks_n_per
       ki_n_per_a * magnet.gap_m * magnet.gap_m / (4.0 * magnet.bias_current_a);
 }
 
-void Add(config::RigFile& rig, Id id, double value, std::uint32_t axes, std::size_t mode) {
+void Add(configuration::RigFile& rig, Id id, double value, std::uint32_t axes, std::size_t mode) {
   EffectConfig entry;
   entry.id = id;
   entry.axes = axes;
@@ -57,7 +57,7 @@ bool IsMeasured(const EffectConfig& entry) {
   }
 }
 
-void SetModes(config::RigFile& out, const ModalResult& found) {
+void SetModes(configuration::RigFile& out, const ModalResult& found) {
   for (std::size_t i = 0; i < found.support.size(); ++i) {
     if (found.support[i].support != Support::kShown) continue;
     const auto at = static_cast<Eigen::Index>(2 + i);
@@ -69,9 +69,9 @@ void SetModes(config::RigFile& out, const ModalResult& found) {
 
 }  // namespace
 
-config::RigFile IdentifiedRig(const config::RigFile& rig, const ModalResult& found,
-                              RotorForm form) {
-  config::RigFile out = rig;
+configuration::RigFile IdentifiedRig(const configuration::RigFile& rig, const ModalResult& found,
+                                     RotorForm form) {
+  configuration::RigFile out = rig;
   std::erase_if(out.plant.effects, IsMeasured);
   out.numbers.name += "_identified";
   out.plant.delay_samples = found.rig.delay_samples;
@@ -102,8 +102,9 @@ config::RigFile IdentifiedRig(const config::RigFile& rig, const ModalResult& fou
   return out;
 }
 
-config::RigFile IdentifiedRig(const config::RigFile& rig, const GearedParameters& found) {
-  config::RigFile out = rig;
+configuration::RigFile IdentifiedRig(const configuration::RigFile& rig,
+                                     const GearedParameters& found) {
+  configuration::RigFile out = rig;
   out.numbers.name += "_identified";
   gear::GearPair& pair = out.plant.gears.front();
   for (plant::BearingConfig& bearing : out.plant.bearings) {

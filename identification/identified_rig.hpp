@@ -23,9 +23,9 @@ namespace levitas::identification {
 
 enum class RotorForm { kModes, kShaft };
 
-[[nodiscard]] config::RigFile IdentifiedRig(const config::RigFile& rig, const ModalResult& found,
-                                            RotorForm form);
-[[nodiscard]] config::RigFile IdentifiedRig(const config::RigFile& rig,
-                                            const GearedParameters& found);
+[[nodiscard]] configuration::RigFile IdentifiedRig(const configuration::RigFile& rig,
+                                                   const ModalResult& found, RotorForm form);
+[[nodiscard]] configuration::RigFile IdentifiedRig(const configuration::RigFile& rig,
+                                                   const GearedParameters& found);
 
 }  // namespace levitas::identification

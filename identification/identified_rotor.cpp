@@ -103,7 +103,7 @@ Eigen::MatrixXd GyroscopicOf(const plant::PlantModel& model, const ModalResult& 
 
 }  // namespace
 
-rotor::GivenRotor IdentifiedRotor(const config::RigFile& rig, const ModalResult& found) {
+rotor::GivenRotor IdentifiedRotor(const configuration::RigFile& rig, const ModalResult& found) {
   for (const effect::EffectConfig& entry : rig.plant.effects) {
     if (entry.id != effect::Id::kBreathingCrack) continue;
     throw BadInput(

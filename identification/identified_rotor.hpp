@@ -15,7 +15,7 @@
 
 namespace levitas::identification {
 
-[[nodiscard]] rotor::GivenRotor IdentifiedRotor(const config::RigFile& rig,
+[[nodiscard]] rotor::GivenRotor IdentifiedRotor(const configuration::RigFile& rig,
                                                 const ModalResult& found);
 
 }  // namespace levitas::identification

@@ -11,7 +11,7 @@
 test_labels="unit loop replay process hardware build"
 more_labels="long"  # on tests that bear one of the others, too
 # Unit tests of the parts that start threads or are shared between them.
-threaded_tests="common_test session_test transport_test loop_test rt_test doctor_test gpio_test diagnosis_unit_test dashboard_test"
+threaded_tests="common_test session_log_test session_exchange_test transport_test loop_test rt_test doctor_test gpio_test diagnosis_model_test diagnosis_inference_test dashboard_test"
 
 left_out=()  # names of tests that were not run, of every preset so far
 

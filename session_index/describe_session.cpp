@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "configuration/rig_file.hpp"
-#include "session/session_reader.hpp"
+#include "session/log/session_reader.hpp"
 #include "verdict/commission.hpp"
 
 namespace levitas::session_index {
@@ -72,13 +72,13 @@ Entry DescribeSession(const std::string& path) {
     return DescribeRun(path, verdict::Commission(judge));
   }
   const std::string within = path + " (header)";
-  const RigNumbers rig = config::ParseRig(header.rig_yaml, within).numbers;
+  const RigNumbers rig = configuration::ParseRig(header.rig_yaml, within).numbers;
   Entry entry;
   PlaceOf(path, entry);
   FromHeader(header, entry);
   entry.rig = rig.name;
   if (!header.scenario_yaml.empty()) {
-    entry.scenario = config::ParseScenario(header.scenario_yaml, within, rig).name;
+    entry.scenario = configuration::ParseScenario(header.scenario_yaml, within, rig).name;
   }
   entry.outcome = kNotJudged;
   entry.sentence = header.excerpt_of.empty() ? "imported measurements, without a controller"

@@ -19,7 +19,7 @@
 
 #include "analysis/records/innovations.hpp"
 #include "controller/law/law_config.hpp"
-#include "session/recording.hpp"
+#include "session/exchange/recording.hpp"
 
 namespace levitas::analysis {
 

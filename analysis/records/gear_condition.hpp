@@ -25,7 +25,7 @@
 #include <vector>
 
 #include "plant_sim/plant/plant_config.hpp"
-#include "session/recording.hpp"
+#include "session/exchange/recording.hpp"
 
 namespace levitas::analysis {
 

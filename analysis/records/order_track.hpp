@@ -17,7 +17,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "session/recording.hpp"
+#include "session/exchange/recording.hpp"
 
 namespace levitas::analysis {
 

@@ -2,7 +2,7 @@
 // A recorded run as the rows that an observer is driven with.
 //
 // Frame      bearing frame, as that of the observer's plant.
-// Levitated  session/recording.hpp says of which rows.
+// Levitated  session/exchange/recording.hpp says of which rows.
 // Coils      a row has the currents of all coils up to the last that was measured in it.
 // Memory     328 bytes a row (3.3 MB a second at 10 kHz) besides the recording.
 // Thread     any.
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "analysis/records/innovations.hpp"
-#include "session/recording.hpp"
+#include "session/exchange/recording.hpp"
 
 namespace levitas::analysis {
 

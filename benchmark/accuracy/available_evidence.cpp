@@ -35,7 +35,7 @@ double Misfit(const diagnosis::RigView& rig, const std::vector<diagnosis::Term>&
 
 }  // namespace
 
-std::optional<double> AvailableEvidence(const config::RigFile& rig,
+std::optional<double> AvailableEvidence(const configuration::RigFile& rig,
                                         const std::vector<Record>& records,
                                         const std::vector<effect::EffectConfig>& hidden,
                                         const std::vector<effect::EffectConfig>& beside) {
@@ -50,7 +50,7 @@ std::optional<double> AvailableEvidence(const config::RigFile& rig,
   for (Record& record : levitated) diagnosis::LeaveOutContactAndWays(nominal, record);
 
   const auto terms = [&](const diagnosis::RigView& view) {
-    return diagnosis::AllTerms(view, rig.tolerances.value_or(config::Tolerances{}),
+    return diagnosis::AllTerms(view, rig.tolerances.value_or(configuration::Tolerances{}),
                                diagnosis::LargestOrbit(levitated, view.axes));
   };
   const double without = Misfit(nominal, terms(nominal), levitated);

@@ -21,7 +21,7 @@
 namespace levitas::accuracy {
 
 [[nodiscard]] std::optional<double> AvailableEvidence(
-    const config::RigFile& rig, const std::vector<diagnosis::Record>& records,
+    const configuration::RigFile& rig, const std::vector<diagnosis::Record>& records,
     const std::vector<effect::EffectConfig>& hidden,
     const std::vector<effect::EffectConfig>& beside = {});
 

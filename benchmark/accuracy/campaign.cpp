@@ -12,14 +12,14 @@
 #include "controller/scenario/prbs.hpp"
 #include "plant_sim/plant/bearing_frame.hpp"
 #include "plant_sim/plant/plant_model.hpp"
-#include "session/record_frame.hpp"
+#include "session/log/record_frame.hpp"
 
 namespace levitas::accuracy {
 namespace {
 
 constexpr double kSaggingM = 350e-6;  // [m] beyond it the rotor is lost
-/// Of the most current, on the average over a record: an axis that gives more holds nothing any
-/// more.
+/// Mean current over a record in shares of its limit, above which an axis counts as saturated and
+/// the run as unstable.
 constexpr double kHolding = 0.8;
 constexpr double kWarmUpS = 1.2;  // [s] in which the integrators find the weight
 

@@ -146,7 +146,7 @@ void ScaleSizes(double weight, double force, double noise, RigTrials& trials) {
 
 }  // namespace
 
-bool CanBeDrawn(const config::RigFile& rig) noexcept {
+bool CanBeDrawn(const configuration::RigFile& rig) noexcept {
   const plant::PlantConfig& plant = rig.plant;
   return plant.shafts.empty() && plant.bearings.size() == 2 && !plant.rotor.given &&
          !plant.rotor.sections.empty() && plant.rotor.discs.size() == 3;
@@ -180,7 +180,7 @@ TestRig DrawRig(const TestRig& shipped, Random& random) {
     drawn.laws = {TextbookLaw(shipped.laws.front(), plant, force_n, mass_kg)};
   }
   const double weight = mass_kg / file_kg;
-  config::Tolerances tolerances = drawn.rig.tolerances.value_or(config::Tolerances{});
+  configuration::Tolerances tolerances = drawn.rig.tolerances.value_or(configuration::Tolerances{});
   tolerances.unbalance_kg_m *= weight;
   tolerances.static_load_n *= force_n / file_force_n;
   drawn.rig.tolerances = tolerances;

@@ -23,7 +23,7 @@ inline constexpr double kLeastNoiseM = 0.05e-6, kMostNoiseM = 3e-6;
 inline constexpr double kLeastForceN = 5.0, kMostForceN = 500.0;
 
 /// True for rigs that DrawRig can change.
-[[nodiscard]] bool CanBeDrawn(const config::RigFile& rig) noexcept;
+[[nodiscard]] bool CanBeDrawn(const configuration::RigFile& rig) noexcept;
 
 /// Whether it levitates is not known yet.
 [[nodiscard]] TestRig DrawRig(const TestRig& shipped, Random& random);

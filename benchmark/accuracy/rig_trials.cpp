@@ -69,7 +69,7 @@ double RigTrials::Factor(Id id) const noexcept {
   return 1.0;
 }
 
-RigTrials TrialsOf(const config::RigFile& rig) {
+RigTrials TrialsOf(const configuration::RigFile& rig) {
   if (rig.numbers.name == "turbomolecular_pump") return Pump();
   if (!rig.plant.shafts.empty()) return Geared();
   return FlexibleRotor();

@@ -31,6 +31,6 @@ struct RigTrials {
 };
 
 /// By the name of the rig; those of the flexible rotor for a rig that has none of its own.
-[[nodiscard]] RigTrials TrialsOf(const config::RigFile& rig);
+[[nodiscard]] RigTrials TrialsOf(const configuration::RigFile& rig);
 
 }  // namespace levitas::accuracy

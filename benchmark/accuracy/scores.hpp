@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "benchmark/accuracy/trial.hpp"
-#include "diagnosis/report/diagnose_files.hpp"
+#include "diagnosis/diagnose/diagnose_files.hpp"
 #include "diagnosis/report/diagnosis_report.hpp"
 
 namespace levitas::accuracy {
@@ -40,7 +40,7 @@ struct TrialScore {
   double explained{};       ///< share of the calibrated model's excess
   double remainder_sigma{};
   std::vector<std::string> nearest;  ///< candidates in words, best first
-  double achieved{};                 ///< fraction of the achievable gain, held out
+  double achieved{};                 ///< fraction of the achievable gain, on validation data
   double parameter_error{-1.0};      ///< of the main parameter: share of it; -1 = not comparable
   double parameter_sigmas{-1.0};
   double seconds{};

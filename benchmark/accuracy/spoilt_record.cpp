@@ -17,7 +17,7 @@ using diagnosis::RecordErrorKind;
 constexpr double kHalfTurn = std::numbers::pi;
 
 /// What a file of these rows says.
-void SetTimes(const config::RigFile& rig, std::vector<LoadedRecord>& records) {
+void SetTimes(const configuration::RigFile& rig, std::vector<LoadedRecord>& records) {
   for (LoadedRecord& record : records) {
     record.times_s.clear();
     for (const auto& row : record.rows)
@@ -27,7 +27,7 @@ void SetTimes(const config::RigFile& rig, std::vector<LoadedRecord>& records) {
 
 class Spoiler {
  public:
-  Spoiler(const config::RigFile& rig, std::uint64_t seed, Spoilt& out)
+  Spoiler(const configuration::RigFile& rig, std::uint64_t seed, Spoilt& out)
       : rig_(rig), axes_(rig.numbers.axes()), random_(seed), out_(out) {}
 
   void Make() {
@@ -271,7 +271,7 @@ class Spoiler {
     out_.size = static_cast<double>(places);
   }
 
-  const config::RigFile& rig_;
+  const configuration::RigFile& rig_;
   std::size_t axes_;
   Random random_;
   Spoilt& out_;
@@ -279,7 +279,7 @@ class Spoiler {
 
 }  // namespace
 
-Spoilt Spoil(const config::RigFile& rig, const std::vector<LoadedRecord>& records,
+Spoilt Spoil(const configuration::RigFile& rig, const std::vector<LoadedRecord>& records,
              RecordErrorKind kind, std::uint64_t seed) {
   Spoilt out{kind, {}, 0.0, records};
   SetTimes(rig, out.records);

@@ -29,7 +29,7 @@ struct Spoilt {
   std::vector<diagnosis::Record> records;  ///< with the times that their file would have
 };
 
-[[nodiscard]] Spoilt Spoil(const config::RigFile& rig,
+[[nodiscard]] Spoilt Spoil(const configuration::RigFile& rig,
                            const std::vector<diagnosis::Record>& records,
                            diagnosis::RecordErrorKind kind, std::uint64_t seed);
 

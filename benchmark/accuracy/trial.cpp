@@ -150,13 +150,14 @@ Trial MakeTrial(const TestRig& bench, const TrialPlan& plan) {
 }
 
 TestRig LoadTestRig(const std::string& rig, const std::vector<std::string>& controllers) {
-  TestRig bench{config::LoadRig(config::FindConfig(rig, "rigs")), {}, {}};
+  TestRig bench{configuration::LoadRig(configuration::FindConfig(rig, "rigs")), {}, {}};
   bench.trials = TrialsOf(bench.rig);
   std::vector<std::string> names = controllers;
   if (names.empty()) names.push_back(bench.rig.run.controller);
   for (const std::string& name : names) {
-    bench.laws.push_back(
-        config::LoadController(config::FindConfig(name, "controllers"), bench.rig.numbers).law);
+    bench.laws.push_back(configuration::LoadController(
+                             configuration::FindConfig(name, "controllers"), bench.rig.numbers)
+                             .law);
   }
   return bench;
 }

@@ -21,7 +21,7 @@ namespace levitas::accuracy {
 
 /// The rig under trial: nominal description and the laws it may be levitated with.
 struct TestRig {
-  config::RigFile rig;
+  configuration::RigFile rig;
   std::vector<law::LawConfig> laws;
   RigTrials trials;
 };
@@ -57,7 +57,7 @@ struct GroundTruth {
 };
 
 struct Trial {
-  config::RigFile rig;  ///< nominal, what the diagnosis is given
+  configuration::RigFile rig;  ///< nominal, what the diagnosis is given
   std::vector<diagnosis::Record> records;
   GroundTruth ground_truth;
 };

@@ -20,8 +20,8 @@ std::size_t IndexOf(const effect::Row& row, std::initializer_list<std::string_vi
   return row.parameters.size();
 }
 
-/// Entries of what a parameter of the answer speaks of: the hidden one, and what the rig is off by
-/// anyway at the same place. Empty: it speaks of another place.
+/// Hidden effect and mismatch of the rig at the place of an estimated parameter; empty where
+/// nothing acts there.
 std::vector<const effect::EffectConfig*> Entries(const diagnosis::NamedParameter& p,
                                                  const GroundTruth& ground_truth) {
   const auto here = [&](const effect::EffectConfig& entry) {

@@ -42,7 +42,7 @@ class Rms {
 };
 
 /// `step` advances the plant by a period.
-Quiet Measure(const config::RigFile& rig, const plant::Plant& plant,
+Quiet Measure(const configuration::RigFile& rig, const plant::Plant& plant,
               const std::function<void()>& step) {
   const plant::ShaftLoads loads(plant.model());
   const std::size_t axes = rig.numbers.axes();
@@ -73,7 +73,7 @@ Quiet Measure(const config::RigFile& rig, const plant::Plant& plant,
   return quiet;
 }
 
-Quiet WithoutCurrent(const config::RigFile& rig, double speed_rad_per_s) {
+Quiet WithoutCurrent(const configuration::RigFile& rig, double speed_rad_per_s) {
   plant::Plant plant(rig.plant, 1);
   plant.SetSpeed(speed_rad_per_s, 0.0);
   plant::PlantCommand command;
@@ -90,7 +90,7 @@ struct Run {
   std::vector<bool> acted;  ///< each block, to the end
 };
 
-Run WithCycle(const config::RigFile& rig, const cycle::CycleConfig& config,
+Run WithCycle(const configuration::RigFile& rig, const cycle::CycleConfig& config,
               double speed_rad_per_s) {
   SpinningRig spinning(rig, config);
   spinning.SpinAt(speed_rad_per_s, kSettleS);
@@ -105,7 +105,7 @@ Run WithCycle(const config::RigFile& rig, const cycle::CycleConfig& config,
 }
 
 /// Both shafts' own, then the teeth's, in rising order.
-std::vector<double> OrdersOf(const config::RigFile& rig) {
+std::vector<double> OrdersOf(const configuration::RigFile& rig) {
   const gear::GearPair& pair = rig.plant.gears.front();
   std::vector<double> orders{
       1.0, static_cast<double>(pair.driving.teeth) / static_cast<double>(pair.driven.teeth)};
@@ -115,7 +115,8 @@ std::vector<double> OrdersOf(const config::RigFile& rig) {
   return orders;
 }
 
-cycle::CycleConfig With(const config::RigFile& rig, const config::ControllerFile& controller,
+cycle::CycleConfig With(const configuration::RigFile& rig,
+                        const configuration::ControllerFile& controller,
                         const std::vector<double>& orders, synchronous::Target target,
                         double speed_rad_per_s) {
   cycle::CycleConfig config{rig.numbers, controller.law, controller.supervisor, {}};
@@ -135,7 +136,7 @@ cycle::CycleConfig With(const config::RigFile& rig, const config::ControllerFile
   return config;
 }
 
-Quiet WithBlocks(const config::RigFile& rig, const config::ControllerFile& controller,
+Quiet WithBlocks(const configuration::RigFile& rig, const configuration::ControllerFile& controller,
                  synchronous::Target target, double speed_rad_per_s) {
   std::vector<double> orders = OrdersOf(rig);
   while (true) {
@@ -150,12 +151,12 @@ Quiet WithBlocks(const config::RigFile& rig, const config::ControllerFile& contr
 
 }  // namespace
 
-void RefuseWithoutGears(const config::RigFile& rig) {
+void RefuseWithoutGears(const configuration::RigFile& rig) {
   if (!rig.plant.gears.empty()) return;
   throw BadInput(rig.numbers.name + ": the rig has no gears; see geared_rotor_12dof");
 }
 
-QuietMesh Listen(const config::RigFile& rig, const config::ControllerFile& controller,
+QuietMesh Listen(const configuration::RigFile& rig, const configuration::ControllerFile& controller,
                  double speed_rad_per_s) {
   RefuseWithoutGears(rig);
   RefuseBeyondDrive(rig, speed_rad_per_s);

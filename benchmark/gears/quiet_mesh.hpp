@@ -34,9 +34,10 @@ struct QuietMesh {
 };
 
 /// Throws BadInput for a rig that this bench says nothing of.
-void RefuseWithoutGears(const config::RigFile& rig);
+void RefuseWithoutGears(const configuration::RigFile& rig);
 
-[[nodiscard]] QuietMesh Listen(const config::RigFile& rig, const config::ControllerFile& controller,
+[[nodiscard]] QuietMesh Listen(const configuration::RigFile& rig,
+                               const configuration::ControllerFile& controller,
                                double speed_rad_per_s);
 
 /// 20 log10(now / before).

@@ -16,11 +16,11 @@ constexpr double kLiftS = 5.0;
 
 }  // namespace
 
-long PeriodsOf(const config::RigFile& rig, double seconds) {
+long PeriodsOf(const configuration::RigFile& rig, double seconds) {
   return std::lround(seconds / rig.numbers.period_s());
 }
 
-void RefuseBeyondDrive(const config::RigFile& rig, double speed_rad_per_s) {
+void RefuseBeyondDrive(const configuration::RigFile& rig, double speed_rad_per_s) {
   const double most = rig.numbers.max_speed_rad_per_s;
   if (speed_rad_per_s <= most) return;
   throw BadInput(fmt::format("{}: {:g} rpm is beyond its drive, allowed {:g} rpm ({:g} Hz)",
@@ -28,7 +28,7 @@ void RefuseBeyondDrive(const config::RigFile& rig, double speed_rad_per_s) {
                              most / kTwoPi));
 }
 
-SpinningRig::SpinningRig(const config::RigFile& rig, const cycle::CycleConfig& config)
+SpinningRig::SpinningRig(const configuration::RigFile& rig, const cycle::CycleConfig& config)
     : rig_(rig), plant_(rig.plant, 1), control_(config) {
   plant_.RestInTouchdown();
 }

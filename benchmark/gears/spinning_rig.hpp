@@ -11,15 +11,15 @@
 namespace levitas::gears {
 
 /// Rounded to whole ones.
-[[nodiscard]] long PeriodsOf(const config::RigFile& rig, double seconds);
+[[nodiscard]] long PeriodsOf(const configuration::RigFile& rig, double seconds);
 
 /// Throws BadInput for a speed that the drive does not reach.
-void RefuseBeyondDrive(const config::RigFile& rig, double speed_rad_per_s);
+void RefuseBeyondDrive(const configuration::RigFile& rig, double speed_rad_per_s);
 
 /// The rig has to outlive it.
 class SpinningRig {
  public:
-  SpinningRig(const config::RigFile& rig, const cycle::CycleConfig& config);
+  SpinningRig(const configuration::RigFile& rig, const cycle::CycleConfig& config);
 
   /// Lifts, goes to the speed as fast as the drive can, and stays there for that time. Throws
   /// BadInput for a speed beyond the drive's, and where it does not levitate; a trip on the way or
@@ -31,7 +31,7 @@ class SpinningRig {
   [[nodiscard]] const cycle::CycleOutputs& out() const noexcept { return out_; }
 
  private:
-  const config::RigFile& rig_;
+  const configuration::RigFile& rig_;
   plant::Plant plant_;
   cycle::ControlCycle control_;
   cycle::CycleInputs in_;

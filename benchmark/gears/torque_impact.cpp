@@ -39,7 +39,7 @@ struct Trace {
 /// A rig that turns steadily with its law, hit again and again from the same state.
 class Turning {
  public:
-  Turning(const config::RigFile& rig, const config::ControllerFile& controller,
+  Turning(const configuration::RigFile& rig, const configuration::ControllerFile& controller,
           double speed_rad_per_s)
       : rig_(rig),
         config_{rig.numbers, controller.law, controller.supervisor, {}},
@@ -60,7 +60,7 @@ class Turning {
     return static_cast<Index>(PeriodsOf(rig_, seconds));
   }
 
-  const config::RigFile& rig_;
+  const configuration::RigFile& rig_;
   cycle::CycleConfig config_;
   double speed_rad_per_s_;
 };
@@ -152,8 +152,9 @@ Passed PassedBy(const Trace& trace, const Trace& quiet) {
 
 }  // namespace
 
-ImpactRelief Relieve(const config::RigFile& rig, const config::ControllerFile& controller,
-                     double speed_rad_per_s, const Impact& impact) {
+ImpactRelief Relieve(const configuration::RigFile& rig,
+                     const configuration::ControllerFile& controller, double speed_rad_per_s,
+                     const Impact& impact) {
   RefuseWithoutGears(rig);
   const Turning turning(rig, controller, speed_rad_per_s);
   ImpactRelief relief;

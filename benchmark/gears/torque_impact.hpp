@@ -40,8 +40,8 @@ struct ImpactRelief {
   Passed law, answered, foreseen;
 };
 
-[[nodiscard]] ImpactRelief Relieve(const config::RigFile& rig,
-                                   const config::ControllerFile& controller, double speed_rad_per_s,
-                                   const Impact& impact);
+[[nodiscard]] ImpactRelief Relieve(const configuration::RigFile& rig,
+                                   const configuration::ControllerFile& controller,
+                                   double speed_rad_per_s, const Impact& impact);
 
 }  // namespace levitas::gears

@@ -37,7 +37,7 @@ double StopRate(const cycle::CycleConfig& config) {
                   config.rig.max_acceleration_rad_per_s2);
 }
 
-loop::DeskOptions Desk(const cycle::CycleConfig& config, bool guards_signals) {
+loop::ArbiterOptions ArbiterOptionsOf(const cycle::CycleConfig& config, bool guards_signals) {
   const supervisor::SequenceConfig& sequence = config.supervisor.sequence;
   return {.period_s = config.rig.period_s(),
           .stop_acceleration_rad_per_s2 = StopRate(config),
@@ -57,9 +57,10 @@ class Controller final : public loop::RecordSink {
                                           plan.scenario, rig.config.rig.period_s(),
                                           rig.config.supervisor.sequence.standstill_rad_per_s)
                                     : nullptr),
-        desk_(Desk(rig.config, plan.guards_signals), player_.get(), {&commands_, &stops_, nullptr}),
+        arbiter_(ArbiterOptionsOf(rig.config, plan.guards_signals), player_.get(),
+                 {&commands_, &stops_, nullptr}),
         loop_({.pace = loop::Pace::kRealtime, .period_ns = rig.config.rig.period_ns}, bench.port(),
-              cycle_, desk_, *this, bench.clock()) {}
+              cycle_, arbiter_, *this, bench.clock()) {}
 
   void Post(const cycle::CycleRecord& record) noexcept override {
     view_.out = record.out;
@@ -79,7 +80,7 @@ class Controller final : public loop::RecordSink {
     }
   }
   void EmergencyStop(std::int64_t now_ns) { stops_.Ask(std::max<std::int64_t>(now_ns, 1), {}); }
-  [[nodiscard]] loop::CommandArbiter& desk() { return desk_; }
+  [[nodiscard]] loop::CommandArbiter& arbiter() { return arbiter_; }
   [[nodiscard]] loop::ControlLoop& loop() { return loop_; }
 
  private:
@@ -89,7 +90,7 @@ class Controller final : public loop::RecordSink {
   SpscRing<RemoteCommand> commands_{16};
   StopLatch stops_;
   loop::ExcitationPool shelf_;
-  loop::CommandArbiter desk_;
+  loop::CommandArbiter arbiter_;
   loop::ControlLoop loop_;
 };
 
@@ -142,7 +143,7 @@ class Life {
     controller.loop().Run();
     controller_ = nullptr;
     view_.there = false;
-    result_.reduced = controller.desk().signals_reduced();
+    result_.reduced = controller.arbiter().signals_reduced();
     if (killed_) return;
     judge_.Ended(bench_.now_ns(), bench_.plant());
     SayGoodbye(controller);
@@ -154,7 +155,7 @@ class Life {
     last.cycle = controller.loop().last().in.frame.cycle;
     last.axes = static_cast<std::uint32_t>(rig_.config.rig.axes());
     last.acceleration_limit_rad_per_s2 = StopRate(rig_.config);
-    last.drive_enabled = !controller.desk().standing();
+    last.drive_enabled = !controller.arbiter().standing();
     bench_.port().SayGoodbye(last);
   }
 
@@ -190,7 +191,7 @@ class Life {
       case Deed::kEmergencyStop:
         return controller_->EmergencyStop(now_ns);
       case Deed::kRequestEnd:
-        return controller_->desk().RequestStop();
+        return controller_->arbiter().RequestStop();
       case Deed::kKill:
         return End();
       case Deed::kStall:
@@ -257,11 +258,12 @@ class Life {
 }  // namespace
 
 LifeRig LoadLifeRig(const std::string& rig, const std::string& controller) {
-  const config::RigFile file = config::LoadRig(config::FindConfig(rig, "rigs"));
+  const configuration::RigFile file =
+      configuration::LoadRig(configuration::FindConfig(rig, "rigs"));
   std::string name = controller.empty() ? file.run.controller : controller;
   if (name.empty()) name = "flexible_rotor_commissioned";  // the general choice of amb run
-  const config::ControllerFile law =
-      config::LoadController(config::FindConfig(name, "controllers"), file.numbers);
+  const configuration::ControllerFile law =
+      configuration::LoadController(configuration::FindConfig(name, "controllers"), file.numbers);
   return {{file.numbers, law.law, law.supervisor}, plant::Plant(file.plant, 1).shared_model()};
 }
 

@@ -11,9 +11,10 @@ namespace levitas {
 namespace {
 
 void PlantAndController(benchmark::State& state) {
-  const config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
-  const config::ControllerFile controller =
-      config::LoadController(config::FindConfig("flexible_rotor", "controllers"), rig.numbers);
+  const configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
+  const configuration::ControllerFile controller = configuration::LoadController(
+      configuration::FindConfig("flexible_rotor", "controllers"), rig.numbers);
   plant::Plant plant(rig.plant, 1);
   plant.RestInTouchdown();
   cycle::ControlCycle control({rig.numbers, controller.law, controller.supervisor});

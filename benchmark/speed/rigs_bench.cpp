@@ -46,7 +46,7 @@ void RunPeriods(benchmark::State& state, const Subject& subject) {
 }
 
 Subject Balanced(const std::string& rig_name) {
-  config::RigFile rig = config::LoadRig(config::FindConfig(rig_name, "rigs"));
+  configuration::RigFile rig = configuration::LoadRig(configuration::FindConfig(rig_name, "rigs"));
   rig.plant.gravity_m_per_s2 = 0.0;
   for (auto& mass : rig.plant.unbalance) mass.moment_kg_m = 0.0;
   for (auto& bearing : rig.plant.bearings) {  // a ball half way between its magnets
@@ -62,7 +62,7 @@ void Register(const Subject& subject) {
 
 /// Every rig of the folder, and the largest of them once more with all its degrees of freedom.
 const bool kRegistered = [] {
-  const std::filesystem::path one = config::FindConfig("flexible_rotor", "rigs");
+  const std::filesystem::path one = configuration::FindConfig("flexible_rotor", "rigs");
   for (const auto& entry : std::filesystem::directory_iterator(one.parent_path())) {
     if (entry.path().extension() == ".yaml") Register(Balanced(entry.path().stem()));
   }

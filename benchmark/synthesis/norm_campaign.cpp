@@ -2,7 +2,7 @@
 // norm_campaign [SYSTEMS] [SEED], 100 000 by default. Exit status 1 when one is wrong.
 //
 // Wrong  a frequency at which the gain exceeds the upper bound, looked for on a grid of 200 points
-//        over ten decades and of 40 about each pole, the best of which is sharpened; a lower bound
+//        over ten decades and of 40 about each pole, the best of which is refined; a lower bound
 //        that is not the gain at its frequency; bounds that lie further apart than asked for.
 
 #include <fmt/core.h>
@@ -45,7 +45,7 @@ std::vector<double> Grid(const StateSpace& system) {
   return at;
 }
 
-/// Largest gain on the grid, sharpened between the best point's neighbours.
+/// Largest gain on the grid, refined between the best point's neighbours.
 double Largest(const StateSpace& system) {
   const std::vector<double> at = Grid(system);
   std::size_t best = 0;

@@ -11,8 +11,8 @@
 
 namespace levitas::cli {
 
-std::vector<LoopAtBias> JudgeBias(const config::RigFile& rig,
-                                  const config::ControllerFile& controller,
+std::vector<LoopAtBias> JudgeBias(const configuration::RigFile& rig,
+                                  const configuration::ControllerFile& controller,
                                   const std::vector<analysis::SensitivityResult>& at_rig_bias) {
   constexpr int kSteps = 4;
   std::vector<LoopAtBias> loops;

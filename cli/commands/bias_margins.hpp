@@ -20,7 +20,7 @@ struct LoopAtBias {
 /// From the rig's bias, at which the loops are judged already, to the lowest in equal ratios. Empty
 /// without bias saving.
 [[nodiscard]] std::vector<LoopAtBias> JudgeBias(
-    const config::RigFile& rig, const config::ControllerFile& controller,
+    const configuration::RigFile& rig, const configuration::ControllerFile& controller,
     const std::vector<analysis::SensitivityResult>& at_rig_bias);
 
 /// A line for each, and the key `bias_saving` of the answer; nothing without any.

@@ -11,7 +11,7 @@
 #include "common/output_file.hpp"
 #include "configuration/rig_file.hpp"
 #include "hil/can/dbc.hpp"
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -41,8 +41,8 @@ nlohmann::ordered_json Json(const DbcOptions& options, const can::Layout& layout
 }
 
 ExitStatus Write(const DbcOptions& options) {
-  const std::string path = config::FindConfig(options.rig, "rigs");
-  const config::RigFile rig = config::LoadRig(path);
+  const std::string path = configuration::FindConfig(options.rig, "rigs");
+  const configuration::RigFile rig = configuration::LoadRig(path);
   if (rig.buses.empty())
     throw BadInput(path + ": names no CAN buses (section buses, docs/real_rig.md)");
   const can::Layout layout = can::MakeLayout(rig.numbers, can::FormatOf(rig.buses));

@@ -14,8 +14,8 @@
 #include "cli/text_file.hpp"
 #include "common/rotational_speed.hpp"
 #include "report/session/comparison_page.hpp"
-#include "session/output_path.hpp"
-#include "session/session_reader.hpp"
+#include "session/log/output_path.hpp"
+#include "session/log/session_reader.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -45,10 +45,10 @@ void TakeHeader(const std::string& path, bool rig_given, report::RecordToCompare
   const session::SessionReader reader(path);
   const session::SessionHeader& header = reader.header();
   const std::string within = path + " (header)";
-  if (!rig_given) record.rig = config::ParseRig(header.rig_yaml, within);
+  if (!rig_given) record.rig = configuration::ParseRig(header.rig_yaml, within);
   if (header.controller_yaml.empty()) return;
   const auto controller =
-      config::ParseController(header.controller_yaml, within, record.rig.numbers);
+      configuration::ParseController(header.controller_yaml, within, record.rig.numbers);
   record.controller = controller.name;
   record.standstill_rad_per_s = controller.supervisor.sequence.standstill_rad_per_s;
 }

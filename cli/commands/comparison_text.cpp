@@ -28,7 +28,7 @@ struct Quantity {
 };
 
 /// Rows of one record at one speed: one per order, or the mean of a rotor that stands.
-void AddRows(TextTable& table, const Quantity& quantity, const report::Comparison& c,
+void AddRows(report::TextTable& table, const Quantity& quantity, const report::Comparison& c,
              const report::ComparedRecord& record, std::size_t speed) {
   const auto& at = record.speeds[speed];
   std::vector<std::string> start{fmt::format("{:.0f}", RadPerSToRpm(c.speeds_rad_per_s[speed])),
@@ -56,7 +56,7 @@ void AddRows(TextTable& table, const Quantity& quantity, const report::Compariso
 }
 
 std::string Table(const report::Comparison& c, const Quantity& quantity) {
-  TextTable table;
+  report::TextTable table;
   std::vector<std::string> head{"rpm", "record", "order"};
   head.insert(head.end(), c.channels.begin(), c.channels.end());
   if (quantity.radius) {

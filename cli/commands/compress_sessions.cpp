@@ -8,8 +8,8 @@
 
 #include "common/problem.hpp"
 #include "rt/say.hpp"
-#include "session/repack.hpp"
-#include "session/session_reader.hpp"
+#include "session/log/repack.hpp"
+#include "session/log/session_reader.hpp"
 #include "session_index/catalogue.hpp"
 
 namespace levitas::cli {

@@ -127,8 +127,8 @@ Finding LookAtKey(const std::string& path) {
 }
 
 ExitStatus JudgeBuses(const DoctorOptions& options) {
-  const std::string path = config::FindConfig(options.bus_rig, "rigs");
-  const config::RigFile rig = config::LoadRig(path);
+  const std::string path = configuration::FindConfig(options.bus_rig, "rigs");
+  const configuration::RigFile rig = configuration::LoadRig(path);
   if (rig.buses.empty())
     throw BadInput(path + ": names no CAN buses (section buses, docs/real_rig.md)");
   const can::Layout layout = can::MakeLayout(rig.numbers, can::FormatOf(rig.buses));

@@ -12,11 +12,11 @@
 #include "cli/commands/session_text.hpp"
 #include "cli/json_file.hpp"
 #include "rt/say.hpp"
-#include "session/csv_export.hpp"
-#include "session/mat_export.hpp"
-#include "session/mcap_export.hpp"
-#include "session/output_path.hpp"
-#include "session/repack.hpp"
+#include "session/exchange/csv_export.hpp"
+#include "session/exchange/mat_export.hpp"
+#include "session/exchange/mcap_export.hpp"
+#include "session/log/output_path.hpp"
+#include "session/log/repack.hpp"
 
 namespace levitas::cli {
 namespace {

@@ -20,7 +20,7 @@
 #include "common/rotational_speed.hpp"
 #include "design/drawn_rigs/rig_uncertainty.hpp"
 #include "report/rig/margins_picture.hpp"
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -122,7 +122,8 @@ struct BlocksAt {
   int not_held{};  ///< drawn rigs that the law alone does not hold: no part of the worst
 };
 
-std::vector<BlocksAt> JudgeBlocks(const config::RigFile& rig, const config::ControllerFile& file) {
+std::vector<BlocksAt> JudgeBlocks(const configuration::RigFile& rig,
+                                  const configuration::ControllerFile& file) {
   constexpr std::size_t kSpeeds = 9;
   constexpr std::size_t kDrawn = 10;
   constexpr std::size_t kModes = 4;
@@ -134,7 +135,7 @@ std::vector<BlocksAt> JudgeBlocks(const config::RigFile& rig, const config::Cont
     BlocksAt& at = all.emplace_back();
     at.rig = analysis::JudgeSynchronous(analysis::CloseLoop(rig.plant, file.law, speed),
                                         file.synchronous, speed);
-    for (const config::RigFile& other : drawn) {
+    for (const configuration::RigFile& other : drawn) {
       const auto loop = analysis::CloseLoop(other.plant, file.law, speed);
       if (!(analysis::LargestPoleModulus(loop) < 1.0)) {  // not the blocks' fault
         ++at.not_held;
@@ -150,7 +151,7 @@ std::vector<BlocksAt> JudgeBlocks(const config::RigFile& rig, const config::Cont
   return all;
 }
 
-void PrintBlocks(const std::vector<BlocksAt>& blocks, const config::ControllerFile& file,
+void PrintBlocks(const std::vector<BlocksAt>& blocks, const configuration::ControllerFile& file,
                  nlohmann::ordered_json& json) {
   fmt::print(
       "synchronous control: decay of each block (1: as its time constant, below 0: grows){}\n",

@@ -26,7 +26,7 @@
 #include "plant_sim/effect/catalogue.hpp"
 #include "report/rig/campbell_panel.hpp"
 #include "report/rig/modes_picture.hpp"
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -39,7 +39,7 @@ struct ModesOptions : AnalysisOptions {
   std::string svg_path;
 };
 
-std::vector<double> SpeedsOf(const ModesOptions& options, const config::RigFile& rig) {
+std::vector<double> SpeedsOf(const ModesOptions& options, const configuration::RigFile& rig) {
   std::vector<double> speeds;
   if (options.campbell) {
     for (int i = 0; i <= kCampbellSteps; ++i) {
@@ -53,12 +53,12 @@ std::vector<double> SpeedsOf(const ModesOptions& options, const config::RigFile&
 
 constexpr const char* kOfFree = "1x meets a free bending mode, magnets off";
 
-analysis::Campbell CampbellOf(const ModesOptions& options, const config::RigFile& rig) {
+analysis::Campbell CampbellOf(const ModesOptions& options, const configuration::RigFile& rig) {
   return analysis::FreeCampbell(rig.plant, report::kBeyondRated * rig.numbers.max_speed_rad_per_s,
                                 options.modes);
 }
 
-void Print(const config::RigFile& rig, const analysis::FreeModes& modes,
+void Print(const configuration::RigFile& rig, const analysis::FreeModes& modes,
            const analysis::RotorFigures& figures) {
   fmt::print("Rig {}: rotor mass {:.3f} kg, centre of mass at z = {:.1f} mm\n", rig.numbers.name,
              modes.rotor_mass_kg, 1e3 * figures.centre_z_m);
@@ -86,7 +86,7 @@ void Print(const config::RigFile& rig, const analysis::FreeModes& modes,
   }
 }
 
-nlohmann::ordered_json Json(const config::RigFile& rig, const analysis::FreeModes& modes,
+nlohmann::ordered_json Json(const configuration::RigFile& rig, const analysis::FreeModes& modes,
                             const analysis::RotorFigures& figures) {
   nlohmann::ordered_json json;
   json["rig"] = rig.numbers.name;
@@ -143,7 +143,7 @@ nlohmann::ordered_json DampedJson(const analysis::DampedModesAtSpeed& at) {
 }
 
 /// Names of the file's effects of one influence, each once.
-std::string Names(const config::RigFile& rig, effect::Modes influence) {
+std::string Names(const configuration::RigFile& rig, effect::Modes influence) {
   std::vector<std::string> names;
   for (const effect::EffectConfig& entry : rig.plant.effects) {
     const std::string name(effect::At(entry.id).name);
@@ -154,7 +154,7 @@ std::string Names(const config::RigFile& rig, effect::Modes influence) {
 }
 
 /// Influence of the rig file's effects on the free rotor, and those that are not applied.
-void ShowEffects(const ModesOptions& options, const config::RigFile& rig,
+void ShowEffects(const ModesOptions& options, const configuration::RigFile& rig,
                  nlohmann::ordered_json& json) {
   using effect::Modes;
   if (rig.plant.effects.empty()) return;
@@ -181,7 +181,7 @@ void ShowEffects(const ModesOptions& options, const config::RigFile& rig,
 }
 
 /// Of all modes that the rig has when it is run, also those beyond the ones asked for.
-void PrintNotes(const config::RigFile& rig) {
+void PrintNotes(const configuration::RigFile& rig) {
   const auto at_rest = analysis::DampedModes(rig.plant, 0.0);
   for (const std::string& note : ModeNotes(at_rest.modes, 1.0 / rig.numbers.period_s())) {
     fmt::print("{}\n", note);
@@ -189,7 +189,7 @@ void PrintNotes(const config::RigFile& rig) {
 }
 
 /// Shafts on supports of their own are not free: their damped modes, magnets without current.
-ExitStatus ShowDamped(const ModesOptions& options, const config::RigFile& rig) {
+ExitStatus ShowDamped(const ModesOptions& options, const configuration::RigFile& rig) {
   fmt::print("Rig {}: {} shafts, {} gears; damped modes, magnets without current\n",
              rig.numbers.name, rig.plant.shafts.size(), rig.plant.gears.size());
   nlohmann::ordered_json json{{"rig", rig.numbers.name}};
@@ -210,7 +210,7 @@ ExitStatus ShowDamped(const ModesOptions& options, const config::RigFile& rig) {
 ExitStatus Run(const ModesOptions& options) {
   session::CheckOutputPath(options.json_path, {});
   session::CheckOutputPath(options.svg_path, {});
-  const config::RigFile rig = LoadRig(options);
+  const configuration::RigFile rig = LoadRig(options);
   if (!rig.plant.shafts.empty()) return ShowDamped(options, rig);
   const auto modes = analysis::ComputeFreeModes(rig.plant, SpeedsOf(options, rig), options.modes);
   const auto figures = analysis::FiguresOf(rig.plant, options.modes);

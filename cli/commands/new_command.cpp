@@ -25,7 +25,7 @@
 #include "common/problem.hpp"
 #include "common/rotational_speed.hpp"
 #include "plant_sim/magnet/magnet.hpp"
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -179,7 +179,7 @@ void WriteFiles(const NewRigFiles& files, const std::array<std::string, 4>& text
 }
 
 /// Of a stable loop: how good it is.
-std::string PeakText(const config::RigFile& rig, const law::LawConfig& law) {
+std::string PeakText(const configuration::RigFile& rig, const law::LawConfig& law) {
   const auto sweep =
       analysis::SensitivityOverSpeed(rig.plant, law, rig.numbers.max_speed_rad_per_s);
   const analysis::SensitivityResult& worst = sweep.speeds[sweep.worst];
@@ -192,7 +192,7 @@ std::string PeakText(const config::RigFile& rig, const law::LawConfig& law) {
 }
 
 /// What the loop is like, the test signals that it bears, and what to type.
-void PrintWhatNext(const NewRigOptions& options, const config::RigFile& rig,
+void PrintWhatNext(const NewRigOptions& options, const configuration::RigFile& rig,
                    const NewRigFiles& files, const TestSignal& signal, const std::string& loop) {
   const std::string rig_file = files.rig.string();
   if (signal.amplitude_a == 0.0) {
@@ -215,7 +215,7 @@ void PrintWhatNext(const NewRigOptions& options, const config::RigFile& rig,
 
 /// What the options give, read back as any file of ours is.
 struct DrawnRig {
-  config::RigFile rig;
+  configuration::RigFile rig;
   law::LawConfig law;
   std::array<std::string, 4> texts;
   TestSignal signal;
@@ -229,19 +229,21 @@ DrawnRig Draw(const RigSketch& sketch, const NewRigFiles& files) {
       {},
       SketchScenario(sketch),
       {}};
-  drawn.rig = config::ParseRig(drawn.texts[0], files.rig.string());
-  const config::RigFile& rig = drawn.rig;
+  drawn.rig = configuration::ParseRig(drawn.texts[0], files.rig.string());
+  const configuration::RigFile& rig = drawn.rig;
   drawn.texts[1] = SketchController(sketch, ChooseStartLaw(sketch, rig));
   const auto controller =
-      config::ParseController(drawn.texts[1], files.controller.string(), rig.numbers);
+      configuration::ParseController(drawn.texts[1], files.controller.string(), rig.numbers);
   drawn.law = controller.law;
-  const auto scenario = config::ParseScenario(drawn.texts[2], files.scenario.string(), rig.numbers);
+  const auto scenario =
+      configuration::ParseScenario(drawn.texts[2], files.scenario.string(), rig.numbers);
   drawn.unstable = UnstableLoop(rig, drawn.law, ScenarioSpeeds(scenario), files.rig.string(),
                                 files.controller.string());
   if (drawn.unstable.empty()) {
     drawn.signal = TestSignalOf(rig, drawn.law);
     drawn.texts[3] = SketchIdentify(sketch, rig, drawn.signal);
-    static_cast<void>(config::ParseScenario(drawn.texts[3], files.identify.string(), rig.numbers));
+    static_cast<void>(
+        configuration::ParseScenario(drawn.texts[3], files.identify.string(), rig.numbers));
   }
   return drawn;
 }

@@ -22,7 +22,7 @@
 #include "controller/synchronous/inverse_ladder.hpp"
 #include "report/rig/campbell_panel.hpp"
 #include "report/rig/poles_picture.hpp"
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -94,7 +94,7 @@ nlohmann::ordered_json Json(const analysis::LoopPoles& at) {
 }
 
 /// The same loop with the blocks of synchronous control that act at this speed; nothing without.
-void AddBlocks(const analysis::SampledLoop& loop, const config::ControllerFile& controller,
+void AddBlocks(const analysis::SampledLoop& loop, const configuration::ControllerFile& controller,
                double speed_rad_per_s, nlohmann::ordered_json& json) {
   std::string acting;
   for (const auto& block : controller.synchronous.blocks) {

@@ -16,9 +16,9 @@
 #include "cli/json_file.hpp"
 #include "configuration/rig_file.hpp"
 #include "rt/say.hpp"
-#include "session/output_path.hpp"
-#include "session/replay.hpp"
-#include "session/what_if.hpp"
+#include "session/log/output_path.hpp"
+#include "session/replay/replay.hpp"
+#include "session/replay/what_if.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -131,7 +131,7 @@ Document WhatIfJson(const ReplayOptions& options, const session::WhatIfReport& r
 ExitStatus Compare(const ReplayOptions& options) {
   session::SessionReader reader(options.session_path);
   fmt::print("{}\n", Describe(options.session_path, reader.header()));
-  const std::string controller = config::FindConfig(options.controller_name, "controllers");
+  const std::string controller = configuration::FindConfig(options.controller_name, "controllers");
   const auto config = session::OtherConfig(reader.header(), options.session_path, controller);
   fmt::print("What {} would have commanded while the rotor moved as recorded:\n",
              rt::OneLine(controller));

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "session/record_codec.hpp"
+#include "session/log/record_codec.hpp"
 #include "transport/lcm_packet.hpp"
 #include "transport/multicast_socket.hpp"
 

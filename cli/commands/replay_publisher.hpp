@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <string>
 
-#include "session/session_reader.hpp"
+#include "session/log/session_reader.hpp"
 
 namespace levitas::cli {
 

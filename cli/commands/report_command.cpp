@@ -16,7 +16,7 @@
 #include "common/rotational_speed.hpp"
 #include "report/session/page.hpp"
 #include "report/session/run_model.hpp"
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 #include "verdict/commission.hpp"
 #include "verdict/report.hpp"
 

@@ -30,7 +30,7 @@
 #include "hil/socketcan/can_connection.hpp"
 #include "plant_sim/loop/timed_events.hpp"
 #include "rt/say.hpp"
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 #include "verdict/commission.hpp"
 #include "verdict/report.hpp"
 
@@ -190,9 +190,9 @@ std::pair<std::string, std::string> RigForCommands(const RunOptions& options) {
 /// Before anything is lifted: an unstable loop is said; an unstable block of synchronous control,
 /// and an event for which the rig lacks the part, are refused.
 void CheckLoop(const RunOptions& options, const RunFiles& files) {
-  const config::RigFile rig = config::ParseRig(files.rig_text, files.rig_path);
-  const auto controller = config::LoadController(files.controller_path, files.rig);
-  const auto scenario = config::LoadScenario(files.scenario_path, files.rig);
+  const configuration::RigFile rig = configuration::ParseRig(files.rig_text, files.rig_path);
+  const auto controller = configuration::LoadController(files.controller_path, files.rig);
+  const auto scenario = configuration::LoadScenario(files.scenario_path, files.rig);
   // Throws for an event that cannot be.
   const plant_run::TimedEvents events(scenario, rig.numbers, rig.plant);
   const auto [rig_name, kept] = RigForCommands(options);
@@ -252,7 +252,7 @@ ExitStatus Execute(const RunOptions& asked) {
                        {{"the rig file", files.rig_path},
                         {"the controller file", files.controller_path},
                         {"the scenario file", files.scenario_path}});
-  const RunOptions options = SettleRig(asked, config::LoadRig(files.rig_path));
+  const RunOptions options = SettleRig(asked, configuration::LoadRig(files.rig_path));
   CheckBuses(options, files);
   const PortLease lease = Lease(network);
   transport::TakeKey(*network, options.key, "play the rig or the controller");

@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "session/session_reader.hpp"
+#include "session/log/session_reader.hpp"
 
 namespace levitas::cli {
 

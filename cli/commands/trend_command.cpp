@@ -21,9 +21,9 @@
 #include "cli/options/svg_option.hpp"
 #include "common/rotational_speed.hpp"
 #include "rt/say.hpp"
-#include "session/output_path.hpp"
-#include "session/recording.hpp"
-#include "session/session_reader.hpp"
+#include "session/exchange/recording.hpp"
+#include "session/log/output_path.hpp"
+#include "session/log/session_reader.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -52,7 +52,8 @@ struct TrendOptions : AnalysisOptions {
 /// What must be the same in all sessions. Of a file that is no session nothing is known.
 struct Setting {
   bool known{};
-  config::RigFile rig;  ///< without its effects: what has become of the rig is what is asked for
+  configuration::RigFile
+      rig;  ///< without its effects: what has become of the rig is what is asked for
   std::string controller, events;
   std::int64_t start_utc_ns{};  ///< of a session made by import: of that
 
@@ -74,18 +75,19 @@ std::string EventsOf(const std::string& scenario) {
 }
 
 struct Loaded {
-  config::RigFile rig;
+  configuration::RigFile rig;
   Setting setting;
   session::Recording recording;
 };
 
-config::RigFile WithoutEffects(config::RigFile rig) {
+configuration::RigFile WithoutEffects(configuration::RigFile rig) {
   rig.plant.effects.clear();
   return rig;
 }
 
 /// That the rig of --rig is not the one that was recorded.
-void WarnOfOtherRig(const std::string& path, const Setting& recorded, const config::RigFile& rig) {
+void WarnOfOtherRig(const std::string& path, const Setting& recorded,
+                    const configuration::RigFile& rig) {
   const std::string difference =
       RigDifference(recorded.rig, WithoutEffects(rig), {"in the session", "in --rig"});
   if (difference.empty()) return;
@@ -100,7 +102,7 @@ Loaded LoadOne(const std::string& path, const TrendOptions& options) {
   if (session::IsSession(path)) {
     const session::SessionReader reader(path);
     const session::SessionHeader& header = reader.header();
-    config::RigFile recorded = config::ParseRig(header.rig_yaml, path + " (header)");
+    configuration::RigFile recorded = configuration::ParseRig(header.rig_yaml, path + " (header)");
     one.setting = {true, WithoutEffects(recorded), WithoutName(header.controller_yaml),
                    EventsOf(header.scenario_yaml), header.start_utc_ns};
     if (rig_given) {

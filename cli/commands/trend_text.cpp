@@ -20,7 +20,7 @@ constexpr double kClearlyMore = 0.2;  // of what turns once, by which a pulse gr
 double NoiseOf(const ShaftCondition& of) { return std::sqrt(of.energy_m2.deviation); }
 
 std::string ShaftTable(const FollowedSessions& f, std::size_t shaft) {
-  TextTable table;
+  report::TextTable table;
   table.Add({"session", "amplitude", "of noise", "rise", "FM4", "+-", "once a turn", "mesh"});
   for (std::size_t i = 0; i < f.sessions.size(); ++i) {
     const analysis::GearCondition& at = f.sessions[i].condition;

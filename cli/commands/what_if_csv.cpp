@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "session/csv_export.hpp"
+#include "session/exchange/csv_export.hpp"
 
 namespace levitas::cli {
 

@@ -11,7 +11,7 @@
 
 #include "common/output_file.hpp"
 #include "controller/cycle/cycle_io.hpp"
-#include "session/session_header.hpp"
+#include "session/log/session_header.hpp"
 
 namespace levitas::cli {
 

@@ -11,7 +11,7 @@ namespace levitas::cli {
 namespace {
 
 /// The largest |S| at rest of a loop that is stable there and at top speed; infinite of another.
-double Peak(const config::RigFile& rig, const law::LawConfig& law) {
+double Peak(const configuration::RigFile& rig, const law::LawConfig& law) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   for (const double speed : {0.0, rig.numbers.max_speed_rad_per_s}) {
     if (!analysis::ClosedLoopPoles(rig.plant, law, speed).stable) return kNone;
@@ -20,7 +20,7 @@ double Peak(const config::RigFile& rig, const law::LawConfig& law) {
   return at.axes[analysis::WorstAxis(at)].peak;
 }
 
-std::vector<std::vector<double>> NotchSets(const config::RigFile& rig, double rate_hz) {
+std::vector<std::vector<double>> NotchSets(const configuration::RigFile& rig, double rate_hz) {
   constexpr double kHighest = 0.4;  // of the rate: beyond it a notch does not stand where it is put
   std::vector<std::vector<double>> sets{{}};
   const auto modes = analysis::ComputeFreeModes(rig.plant, {0.0}, 2).whirl.front().forward_hz;
@@ -37,7 +37,7 @@ std::vector<std::vector<double>> NotchSets(const config::RigFile& rig, double ra
   return sets;
 }
 
-std::vector<StartLaw> Forms(const RigSketch& sketch, const config::RigFile& rig) {
+std::vector<StartLaw> Forms(const RigSketch& sketch, const configuration::RigFile& rig) {
   std::vector<StartLaw> forms;
   for (const auto& notch_hz : NotchSets(rig, sketch.rate_hz)) {
     for (const double stiffness : {1.5, 2.0, 2.5}) {
@@ -51,12 +51,12 @@ std::vector<StartLaw> Forms(const RigSketch& sketch, const config::RigFile& rig)
 
 }  // namespace
 
-StartLaw ChooseStartLaw(const RigSketch& sketch, const config::RigFile& rig) {
+StartLaw ChooseStartLaw(const RigSketch& sketch, const configuration::RigFile& rig) {
   StartLaw best;
   double least = std::numeric_limits<double>::infinity();
   for (const StartLaw& form : Forms(sketch, rig)) {
     const auto controller =
-        config::ParseController(SketchController(sketch, form), "start law", rig.numbers);
+        configuration::ParseController(SketchController(sketch, form), "start law", rig.numbers);
     const double peak = Peak(rig, controller.law);
     if (!(peak < least)) continue;
     least = peak;

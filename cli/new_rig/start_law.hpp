@@ -13,6 +13,6 @@
 namespace levitas::cli {
 
 /// `rig` is that of the sketch.
-[[nodiscard]] StartLaw ChooseStartLaw(const RigSketch& sketch, const config::RigFile& rig);
+[[nodiscard]] StartLaw ChooseStartLaw(const RigSketch& sketch, const configuration::RigFile& rig);
 
 }  // namespace levitas::cli

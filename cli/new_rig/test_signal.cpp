@@ -29,7 +29,7 @@ double Sinc(double x) {
 }
 
 /// Standard deviation of the axis that moves most, per ampere of the sequence on that axis [m/A].
-double DeviationPerAmpere(const config::RigFile& rig, const law::LawConfig& law,
+double DeviationPerAmpere(const configuration::RigFile& rig, const law::LawConfig& law,
                           const TestSignal& signal) {
   const analysis::LoopResponse response(analysis::CloseLoop(rig.plant, law, 0.0));
   const double length = std::exp2(signal.order) - 1.0;
@@ -78,7 +78,7 @@ double RoundedDown(double value) {
 
 }  // namespace
 
-TestSignal TestSignalOf(const config::RigFile& rig, const law::LawConfig& law) {
+TestSignal TestSignalOf(const configuration::RigFile& rig, const law::LawConfig& law) {
   TestSignal signal;
   signal.divisor = 2;
   const double clock_hz = 1.0 / (signal.divisor * rig.numbers.period_s());
@@ -104,7 +104,8 @@ TestSignal TestSignalOf(const config::RigFile& rig, const law::LawConfig& law) {
   return signal;
 }
 
-double DurationOf(const RigSketch& sketch, const config::RigFile& rig, const TestSignal& signal) {
+double DurationOf(const RigSketch& sketch, const configuration::RigFile& rig,
+                  const TestSignal& signal) {
   constexpr double kBetween = 0.3;
   constexpr double kAround = 2.5;  // lift, settle, land
   const double axes = static_cast<double>(rig.numbers.channels.size());
@@ -116,7 +117,7 @@ double DurationOf(const RigSketch& sketch, const config::RigFile& rig, const Tes
          2.0 * fastest / SketchAcceleration(sketch);
 }
 
-std::string SketchIdentify(const RigSketch& sketch, const config::RigFile& rig,
+std::string SketchIdentify(const RigSketch& sketch, const configuration::RigFile& rig,
                            const TestSignal& signal) {
   const double hold_s = HoldOf(sketch, signal);
   std::string text = fmt::format(

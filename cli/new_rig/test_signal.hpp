@@ -30,14 +30,14 @@ struct TestSignal {
 };
 
 /// `rig` is that of the sketch, `law` one that holds it.
-[[nodiscard]] TestSignal TestSignalOf(const config::RigFile& rig, const law::LawConfig& law);
+[[nodiscard]] TestSignal TestSignalOf(const configuration::RigFile& rig, const law::LawConfig& law);
 
 /// [s] of the rig's time that the scenario takes, to a second or two.
-[[nodiscard]] double DurationOf(const RigSketch& sketch, const config::RigFile& rig,
+[[nodiscard]] double DurationOf(const RigSketch& sketch, const configuration::RigFile& rig,
                                 const TestSignal& signal);
 
 /// Text of the scenario file.
-[[nodiscard]] std::string SketchIdentify(const RigSketch& sketch, const config::RigFile& rig,
+[[nodiscard]] std::string SketchIdentify(const RigSketch& sketch, const configuration::RigFile& rig,
                                          const TestSignal& signal);
 
 }  // namespace levitas::cli

@@ -14,7 +14,7 @@
 #include "configuration/run_files.hpp"
 #include "controller/law/discrete_law.hpp"
 #include "hil/socketcan/can_connection.hpp"
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -25,7 +25,8 @@ constexpr double kFastestRpm = 1e6;  // beyond any rotor: turbine-driven spindle
 constexpr double kWorthSaying = 0.01;  // of the frequency that the file gives for a notch
 
 /// Notches that stand elsewhere in discrete time, each once with the axes that have it.
-std::string NotchesElsewhere(const config::ControllerFile& controller, const RigNumbers& rig) {
+std::string NotchesElsewhere(const configuration::ControllerFile& controller,
+                             const RigNumbers& rig) {
   std::map<double, std::vector<std::string>> axes;  // by the frequency given
   const law::LawConfig& law = controller.law;       // of a schedule, that at rest
   const std::size_t count = std::min(law.axes.size(), rig.channels.size());
@@ -49,7 +50,7 @@ std::string NotchesElsewhere(const config::ControllerFile& controller, const Rig
 }
 
 /// The reason why one real wire in place of the buses of the file would not carry the loop.
-std::string OneWireNote(const AnalysisOptions& options, const config::RigFile& rig) {
+std::string OneWireNote(const AnalysisOptions& options, const configuration::RigFile& rig) {
   const std::string refusal =
       socketcan::RealWireRefusal(rig.numbers, rig.buses, options.rig_name, options.port);
   if (refusal.empty()) return {};
@@ -83,7 +84,7 @@ void AddPortOption(CLI::App& command, AnalysisOptions& options) {
       ->capture_default_str();
 }
 
-std::string TakeDelayOfPort(const AnalysisOptions& options, config::RigFile& rig) {
+std::string TakeDelayOfPort(const AnalysisOptions& options, configuration::RigFile& rig) {
   const double of_file = rig.plant.delay_samples;
   if (options.port == "lcm") {
     return fmt::format("delay from sample to current: {:.2f} periods, of the rig file{}\n", of_file,
@@ -123,17 +124,18 @@ void AddJsonOption(CLI::App& command, AnalysisOptions& options) {
                      "standard error");
 }
 
-config::RigFile LoadRig(const AnalysisOptions& options) {
-  return config::LoadRig(config::FindConfig(options.rig_name, "rigs"));
+configuration::RigFile LoadRig(const AnalysisOptions& options) {
+  return configuration::LoadRig(configuration::FindConfig(options.rig_name, "rigs"));
 }
 
-FoundController LoadController(const AnalysisOptions& options, const config::RigFile& rig) {
+FoundController LoadController(const AnalysisOptions& options, const configuration::RigFile& rig) {
   const std::string path =
-      config::FindController(rig.run, options.controller_name, kReferenceController);
+      configuration::FindController(rig.run, options.controller_name, kReferenceController);
   session::RefuseClash({{"--json", options.json_path}}, {{"the controller file", path}});
-  FoundController found{path, config::LoadFound(path, rig, options.controller_name), {}};
+  FoundController found{path, configuration::LoadFound(path, rig, options.controller_name), {}};
   found.notes = NotchesElsewhere(found.file, rig.numbers);
-  for (const std::string& note : config::LawNotes(found.file.law)) found.notes += "\n  " + note;
+  for (const std::string& note : configuration::LawNotes(found.file.law))
+    found.notes += "\n  " + note;
   return found;
 }
 
@@ -149,7 +151,7 @@ std::string ControllerText(const FoundController& controller) {
   return fmt::format("{} ({}){}", controller.file.name, controller.path, controller.notes);
 }
 
-std::string GainsNote(const AnalysisOptions& options, const config::RigFile& rig) {
+std::string GainsNote(const AnalysisOptions& options, const configuration::RigFile& rig) {
   if (!options.controller_name.empty() || !rig.run.controller.empty()) return {};
   return fmt::format("These are the reference gains. amb run takes others: --controller {}\n",
                      kGeneralController);

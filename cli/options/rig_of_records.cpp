@@ -11,7 +11,7 @@
 #include "common/problem.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 #include "rt/say.hpp"
-#include "session/rig_of_session.hpp"
+#include "session/exchange/rig_of_session.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -19,7 +19,7 @@ namespace {
 /// A record that says of which rig it is.
 struct OwnRig {
   std::string path;
-  config::RigFile rig;
+  configuration::RigFile rig;
 };
 
 std::vector<OwnRig> RigsOf(const std::vector<std::string>& records) {
@@ -31,12 +31,12 @@ std::vector<OwnRig> RigsOf(const std::vector<std::string>& records) {
 }
 
 /// Complete text of what an answer depends on, line by line.
-std::vector<std::string> LinesOf(config::RigFile rig) {
+std::vector<std::string> LinesOf(configuration::RigFile rig) {
   rig.numbers.name.clear();
   rig.run = {};
   rig.lines = {};
   rig.log = {};
-  std::istringstream text(config::WriteRig(rig));
+  std::istringstream text(configuration::WriteRig(rig));
   std::vector<std::string> lines;
   for (std::string line; std::getline(text, line);) lines.push_back(line);
   return lines;
@@ -64,12 +64,12 @@ std::string GroupsOf(const std::vector<std::string>& lines, std::size_t index) {
 }
 
 /// What the loader of records refuses needs no warning.
-bool IsRefused(const config::RigFile& session, const config::RigFile& named) {
+bool IsRefused(const configuration::RigFile& session, const configuration::RigFile& named) {
   return session.numbers.period_ns != named.numbers.period_ns ||
          session.numbers.channels != named.numbers.channels;
 }
 
-void TellOtherRig(const OwnRig& own, const config::RigFile& named, const std::string& path) {
+void TellOtherRig(const OwnRig& own, const configuration::RigFile& named, const std::string& path) {
   if (IsRefused(own.rig, named)) return;
   const std::string difference = RigDifference(own.rig, named);
   if (difference.empty()) return;
@@ -92,7 +92,7 @@ void TellEffects(const OwnRig& own) {
                   rt::OneLine(own.path), fmt::join(names, ", ")));
 }
 
-config::RigFile OnlyRig(std::vector<OwnRig>& rigs) {
+configuration::RigFile OnlyRig(std::vector<OwnRig>& rigs) {
   for (const OwnRig& other : rigs) {
     const std::string difference =
         RigDifference(rigs.front().rig, other.rig, {"of the one", "of the other"});
@@ -116,8 +116,8 @@ void AddRigOfRecordsOption(CLI::App& command, AnalysisOptions& options) {
                                  options.rig_name));
 }
 
-std::string RigDifference(const config::RigFile& first_rig, const config::RigFile& second_rig,
-                          const WhichRigs& which) {
+std::string RigDifference(const configuration::RigFile& first_rig,
+                          const configuration::RigFile& second_rig, const WhichRigs& which) {
   const auto one = LinesOf(first_rig);
   const auto other = LinesOf(second_rig);
   const auto [first, second] = std::ranges::mismatch(one, other);
@@ -131,14 +131,14 @@ std::string RigDifference(const config::RigFile& first_rig, const config::RigFil
                      text(other), which.second);
 }
 
-config::RigFile LoadRigOfRecords(const AnalysisOptions& options,
-                                 const std::vector<std::string>& records) {
+configuration::RigFile LoadRigOfRecords(const AnalysisOptions& options,
+                                        const std::vector<std::string>& records) {
   if (options.rig_named.empty()) {
     std::vector<OwnRig> rigs = RigsOf(records);
     return rigs.empty() ? LoadRig(options) : OnlyRig(rigs);
   }
-  const std::string path = config::FindConfig(options.rig_named, "rigs");
-  config::RigFile named = config::LoadRig(path);
+  const std::string path = configuration::FindConfig(options.rig_named, "rigs");
+  configuration::RigFile named = configuration::LoadRig(path);
   for (const std::string& record : records) {
     try {
       const auto own = session::RigOfSession(record);

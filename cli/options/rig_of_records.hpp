@@ -23,8 +23,8 @@ namespace levitas::cli {
 /// --rig, whose default is the rig of the session.
 void AddRigOfRecordsOption(CLI::App& command, AnalysisOptions& options);
 
-[[nodiscard]] config::RigFile LoadRigOfRecords(const AnalysisOptions& options,
-                                               const std::vector<std::string>& records);
+[[nodiscard]] configuration::RigFile LoadRigOfRecords(const AnalysisOptions& options,
+                                                      const std::vector<std::string>& records);
 
 struct WhichRigs {
   const char* first{"in the session"};
@@ -33,8 +33,8 @@ struct WhichRigs {
 
 /// "magnet.gap_mm: 0.5 in the session, 0.4 in the file" of the first value that differs; empty
 /// where both are the same rig.
-[[nodiscard]] std::string RigDifference(const config::RigFile& first_rig,
-                                        const config::RigFile& second_rig,
+[[nodiscard]] std::string RigDifference(const configuration::RigFile& first_rig,
+                                        const configuration::RigFile& second_rig,
                                         const WhichRigs& which = {});
 
 }  // namespace levitas::cli

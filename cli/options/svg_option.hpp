@@ -7,7 +7,7 @@
 #include <CLI/App.hpp>
 #include <string>
 
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::cli {
 

@@ -14,8 +14,8 @@
 namespace levitas::cli {
 namespace {
 
-std::optional<analysis::LoopPoles> PolesAt(const config::RigFile& rig, const law::LawConfig& law,
-                                           double speed_rad_per_s) {
+std::optional<analysis::LoopPoles> PolesAt(const configuration::RigFile& rig,
+                                           const law::LawConfig& law, double speed_rad_per_s) {
   try {
     return analysis::ClosedLoopPoles(rig.plant, law, speed_rad_per_s);
   } catch (const std::exception&) {
@@ -25,7 +25,7 @@ std::optional<analysis::LoopPoles> PolesAt(const config::RigFile& rig, const law
 
 }  // namespace
 
-std::string UnstableLoop(const config::RigFile& rig, const law::LawConfig& law,
+std::string UnstableLoop(const configuration::RigFile& rig, const law::LawConfig& law,
                          const std::vector<double>& speeds_rad_per_s, const std::string& rig_name,
                          const std::string& controller_name) {
   for (const double speed : speeds_rad_per_s) {
@@ -42,7 +42,8 @@ std::string UnstableLoop(const config::RigFile& rig, const law::LawConfig& law,
   return {};
 }
 
-std::string UnstableBlocksOf(const config::RigFile& rig, const config::ControllerFile& controller) {
+std::string UnstableBlocksOf(const configuration::RigFile& rig,
+                             const configuration::ControllerFile& controller) {
   if (controller.synchronous.blocks.empty()) return {};
   try {
     return analysis::UnstableBlocks(rig.plant, controller.law, controller.synchronous);

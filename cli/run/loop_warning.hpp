@@ -17,7 +17,7 @@ namespace levitas::cli {
 
 /// Empty where the loop is stable at all of these speeds or cannot be judged. `rig_name` and
 /// `controller_name` are as a command takes them.
-[[nodiscard]] std::string UnstableLoop(const config::RigFile& rig, const law::LawConfig& law,
+[[nodiscard]] std::string UnstableLoop(const configuration::RigFile& rig, const law::LawConfig& law,
                                        const std::vector<double>& speeds_rad_per_s,
                                        const std::string& rig_name,
                                        const std::string& controller_name);
@@ -25,8 +25,8 @@ namespace levitas::cli {
 /// Why the blocks of synchronous control must not run with this rig; analysis/synchronous_loop.hpp:
 /// unlike the loop itself they are never tried, nor is what cannot be judged. Empty where all are
 /// stable, or there are none. Costs some 10 ms for each of 25 speeds of a block.
-[[nodiscard]] std::string UnstableBlocksOf(const config::RigFile& rig,
-                                           const config::ControllerFile& controller);
+[[nodiscard]] std::string UnstableBlocksOf(const configuration::RigFile& rig,
+                                           const configuration::ControllerFile& controller);
 
 /// Standstill, and the fastest speed that the scenario asks for where it spins at all.
 [[nodiscard]] std::vector<double> ScenarioSpeeds(const scenario::ScenarioConfig& scenario);

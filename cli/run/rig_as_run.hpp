@@ -25,7 +25,7 @@ struct RigChanges {
 };
 
 struct RigAsRun {
-  config::RigFile rig;
+  configuration::RigFile rig;
   std::string text;  ///< complete, every default written out
 };
 

@@ -56,9 +56,9 @@ void RefuseWrongPace(const RunOptions& options) {
 RunFiles CheckFiles(const RunOptions& options) {
   RunFiles files;
   std::string problems;
-  config::RigFile rig;
+  configuration::RigFile rig;
   const bool rig_good = Collect(problems, [&] {
-    files.rig_path = config::FindConfig(options.rig, "rigs");
+    files.rig_path = configuration::FindConfig(options.rig, "rigs");
     RigAsRun as_run = ReadRigAsRun(files.rig_path, options.changes);
     rig = std::move(as_run.rig);
     files.rig = rig.numbers;
@@ -67,17 +67,18 @@ RunFiles CheckFiles(const RunOptions& options) {
   // The other two are read for a rig. Without one, the shipped rig shows at least what is wrong in
   // them whatever the rig.
   if (!rig_good) {
-    rig.numbers = config::LoadRig(config::FindConfig(kReferenceRig, "rigs")).numbers;
+    rig.numbers = configuration::LoadRig(configuration::FindConfig(kReferenceRig, "rigs")).numbers;
     problems +=
         fmt::format("\n(the other files are checked against the shipped rig {})", kReferenceRig);
   }
   Collect(problems, [&] {
-    files.controller_path = config::FindController(rig.run, options.controller, kGeneralController);
-    static_cast<void>(config::LoadFound(files.controller_path, rig, options.controller));
+    files.controller_path =
+        configuration::FindController(rig.run, options.controller, kGeneralController);
+    static_cast<void>(configuration::LoadFound(files.controller_path, rig, options.controller));
   });
   Collect(problems, [&] {
-    files.scenario_path = config::FindScenario(rig.run, options.scenario, kGeneralScenario);
-    files.scenario_name = config::LoadScenario(files.scenario_path, rig.numbers).name;
+    files.scenario_path = configuration::FindScenario(rig.run, options.scenario, kGeneralScenario);
+    files.scenario_name = configuration::LoadScenario(files.scenario_path, rig.numbers).name;
   });
   if (!problems.empty()) throw BadInput(problems);
   return files;
@@ -88,7 +89,7 @@ std::optional<transport::LcmNetwork> CheckPort(const std::string& port) {
   return transport::ParseLcmNetwork(port, "can, can:IF[,IF...], ");
 }
 
-RunOptions SettleRig(RunOptions options, const config::RigFile& rig,
+RunOptions SettleRig(RunOptions options, const configuration::RigFile& rig,
                      socketcan::LinkKind (*find)(const std::string&)) {
   if (options.rig_is_there && options.port.empty()) {
     throw Problem(ExitStatus::kUsage,
@@ -111,7 +112,7 @@ RunOptions SettleRig(RunOptions options, const config::RigFile& rig,
 
 void CheckBuses(const RunOptions& options, const RunFiles& files) {
   if (!socketcan::IsCanPort(options.port)) return;
-  const config::RigFile rig = config::LoadRig(files.rig_path);
+  const configuration::RigFile rig = configuration::LoadRig(files.rig_path);
   static_cast<void>(
       socketcan::PlanConnection(rig.numbers, rig.buses, files.rig_path, options.port));
 }

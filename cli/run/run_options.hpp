@@ -63,7 +63,7 @@ struct RunFiles {
 /// it. Refuses what contradicts that, and a rig that is said to be there without a port where it
 /// could be.
 [[nodiscard]] RunOptions SettleRig(
-    RunOptions options, const config::RigFile& rig,
+    RunOptions options, const configuration::RigFile& rig,
     socketcan::LinkKind (*find)(const std::string&) = socketcan::FindLink);
 
 /// Refuses a CAN port whose buses do not carry the loop of the rig; nothing happens for LCM.

@@ -22,7 +22,7 @@
 #include "configuration/schema/unit.hpp"
 #include "identification/balance/balance.hpp"
 #include "report/balance/balance_files.hpp"
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -55,7 +55,7 @@ struct BalanceOptions : AnalysisOptions {
   std::string run_outs_path;
 };
 
-CorrectionPlanes PlanesOf(const BalanceOptions& options, const config::RigFile& rig) {
+CorrectionPlanes PlanesOf(const BalanceOptions& options, const configuration::RigFile& rig) {
   CorrectionPlanes planes;
   if (!options.planes_path.empty()) planes = LoadPlanes(options.planes_path);
   for (const std::string& word : options.planes) planes.planes.push_back(PlaneOfWord(word));
@@ -75,8 +75,9 @@ AppliedWeight WeightOfWord(const std::string& word, const CorrectionPlanes& plan
   const std::size_t at = word.find('@', equal == std::string::npos ? 0 : equal);
   if (equal == std::string::npos || at == std::string::npos) throw refuse("no '=' or no '@'");
   const std::string name = word.substr(0, equal);
-  const auto mass = config::ToSi(word.substr(equal + 1, at - equal - 1), config::unit::kGram);
-  const auto angle = config::ToSi(word.substr(at + 1), config::unit::kDegree);
+  const auto mass =
+      configuration::ToSi(word.substr(equal + 1, at - equal - 1), configuration::unit::kGram);
+  const auto angle = configuration::ToSi(word.substr(at + 1), configuration::unit::kDegree);
   if (!mass || !angle) throw refuse("not two numbers");
   for (const CorrectionPlane& plane : planes.planes) {
     if (plane.name != name) continue;
@@ -90,7 +91,7 @@ AppliedWeight WeightOfWord(const std::string& word, const CorrectionPlanes& plan
 /// The controller of --controller, else the session's, with the run-out that was found taken off
 /// what its law reads, in place of what it had of order 1. Only what the records show beyond
 /// chance: two deviations.
-void WriteRunOuts(const BalanceOptions& options, const config::RigFile& rig,
+void WriteRunOuts(const BalanceOptions& options, const configuration::RigFile& rig,
                   const UnbalanceFit& fit) {
   if (options.run_outs_path.empty()) return;
   constexpr double kDeviations = 2.0;
@@ -113,7 +114,7 @@ void WriteRunOuts(const BalanceOptions& options, const config::RigFile& rig,
     throw BadInput("--write-run-outs: " + options.data_path +
                    " names no controller; give the one to be written with --controller");
   }
-  config::ControllerFile& controller = known->file;
+  configuration::ControllerFile& controller = known->file;
   auto& all = controller.synchronous.run_outs;
   std::erase_if(all, [](const synchronous::RunOut& one) { return one.order == 1.0; });
   all.push_back(found);
@@ -132,7 +133,7 @@ void WriteRunOuts(const BalanceOptions& options, const config::RigFile& rig,
 }
 
 /// Where a session's controller says that its rig has no mark on the shaft.
-void TellOfNoMark(const std::vector<std::string>& records, const config::RigFile& rig) {
+void TellOfNoMark(const std::vector<std::string>& records, const configuration::RigFile& rig) {
   for (const std::string& path : records) {
     const auto known = ControllerIfKnown(path, {}, rig);
     if (!known || known->file.synchronous.angle.source == synchronous::AngleSource::kRig) continue;
@@ -170,9 +171,9 @@ ExitStatus Run(const BalanceOptions& options) {
                                                 : request.rig.numbers.max_speed_rad_per_s;
   const BalanceResult result = Balance(request);
   TellOfNoMark(records, request.rig);
-  fmt::print("{}", BalanceText(request, result));
-  WriteJsonFile(options.json_path, BalanceJson(request, result));
-  WriteBalancePicture(options.svg_path, request, result);
+  fmt::print("{}", report::BalanceText(request, result));
+  WriteJsonFile(options.json_path, report::BalanceJson(request, result));
+  report::WriteBalancePicture(options.svg_path, request, result);
   WriteRunOuts(options, request.rig, result.fit);
   TellWritten({options.json_path, options.svg_path, options.run_outs_path});
   return ExitStatus::kDone;

@@ -9,8 +9,8 @@
 #include "benchmark/accuracy/drawn_rig.hpp"
 #include "cli/study/bench_workers.hpp"
 #include "common/problem.hpp"
+#include "diagnosis/diagnose/diagnose_files.hpp"
 #include "diagnosis/report/build_report.hpp"
-#include "diagnosis/report/diagnose_files.hpp"
 #include "report/diagnosis/diagnosis_files.hpp"
 
 namespace levitas::cli {
@@ -78,7 +78,7 @@ nlohmann::ordered_json JsonOf(const Forecasted& o) {
   json["file_percent"] = o.report.validation.nominal_percent;
   json["model_percent"] = o.report.validation.extended_percent;
   json["ceiling_percent"] = o.report.validation.ceiling_percent;
-  json["forecast"] = ForecastJson(*o.report.forecast);
+  json["forecast"] = report::ForecastJson(*o.report.forecast);
   return json;
 }
 

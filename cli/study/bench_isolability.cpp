@@ -67,7 +67,8 @@ std::optional<Prediction> PredictionOf(const accuracy::TrialPlan& plan,
   nothing.hidden.clear();
   accuracy::Trial healthy = TrialOf(nothing, bench, options);
   // A rig that did not levitate with the effect has been drawn anew.
-  if (config::WriteRig(healthy.rig) != config::WriteRig(trial.rig)) return std::nullopt;
+  if (configuration::WriteRig(healthy.rig) != configuration::WriteRig(trial.rig))
+    return std::nullopt;
   const diagnosis::RigView view(healthy.rig.numbers, healthy.rig.plant);
   for (diagnosis::Record& record : healthy.records) diagnosis::LeaveOutContactAndWays(view, record);
   const diagnosis::HealthyModel model(healthy.rig, std::move(healthy.records), true,

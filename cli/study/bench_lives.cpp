@@ -18,7 +18,7 @@ namespace levitas::cli {
 namespace {
 
 constexpr const char* kBenchLivesHelp =
-    "Every seed is one life: the real control loop, command desk and protections with the "
+    "Every seed is one life: the real control loop, command arbiter and protections with the "
     "nonlinear rig in virtual time; a profile of speed, and one of 26 kinds of trouble in turn: "
     "frames and currents lost, in bursts, late, out of order, twice, old; wrong speeds and "
     "positions; late, killed and restarted programs; stops, commands, test signals, an end; two "

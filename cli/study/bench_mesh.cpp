@@ -91,10 +91,10 @@ std::vector<std::string> Row(double hz, const char* what, const gears::Passed& p
   return row;
 }
 
-void RunImpacts(const MeshOptions& options, const config::RigFile& rig,
-                const config::ControllerFile& controller, nlohmann::ordered_json& json) {
+void RunImpacts(const MeshOptions& options, const configuration::RigFile& rig,
+                const configuration::ControllerFile& controller, nlohmann::ordered_json& json) {
   const gears::Impact impact{options.impact_n_m, 1e-3 * options.impact_ms};
-  TextTable table;
+  report::TextTable table;
   for (const double hz : options.hz) {
     const auto relief = gears::Relieve(rig, controller, RpmToRadPerS(60.0 * hz), impact);
     if (json["impacts"].empty()) {
@@ -119,21 +119,22 @@ void RunImpacts(const MeshOptions& options, const config::RigFile& rig,
 }
 
 ExitStatus Run(const MeshOptions& options) {
-  const config::RigFile rig = config::LoadRig(config::FindConfig(options.rig, "rigs"));
+  const configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig(options.rig, "rigs"));
   gears::RefuseWithoutGears(rig);
   const std::string& name = options.controller.empty() ? rig.run.controller : options.controller;
   if (name.empty()) {
     throw BadInput(rig.numbers.name + ": the rig names no controller; give one with --controller");
   }
-  const config::ControllerFile controller =
-      config::LoadController(config::FindConfig(name, "controllers"), rig.numbers);
+  const configuration::ControllerFile controller =
+      configuration::LoadController(configuration::FindConfig(name, "controllers"), rig.numbers);
   nlohmann::ordered_json json{{"rig", rig.numbers.name}, {"controller", controller.name}};
   if (options.impact_n_m != 0.0) {
     RunImpacts(options, rig, controller, json);
     WriteJsonFile(options.json_path, json);
     return ExitStatus::kDone;
   }
-  TextTable table;
+  report::TextTable table;
   bool first = true;
   for (const double hz : options.hz) {
     const gears::QuietMesh mesh = gears::Listen(rig, controller, RpmToRadPerS(60.0 * hz));

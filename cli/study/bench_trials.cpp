@@ -41,15 +41,15 @@ std::vector<effect::Id> Chosen(const BenchOptions& options, const accuracy::Test
 
 void WriteTrial(const accuracy::Trial& trial, const std::string& root, std::uint64_t seed) {
   const std::string folder = fmt::format("{}/{}", root, seed);
-  std::filesystem::create_directories(folder + "/secret");
+  std::filesystem::create_directories(folder + "/ground_truth");
   accuracy::WriteCsv(trial.records, trial.rig.numbers, folder);
-  WriteWholeFile(folder + "/rig.yaml", config::WriteRig(trial.rig));
+  WriteWholeFile(folder + "/rig.yaml", configuration::WriteRig(trial.rig));
   nlohmann::ordered_json truth{{"effects", trial.ground_truth.effects},
                                {"outside", Name(trial.ground_truth.outside)}};
-  WriteJsonFile(folder + "/secret/truth.json", truth);
+  WriteJsonFile(folder + "/ground_truth/truth.json", truth);
 }
 
-/// What the records hold for one of what is hidden, beside the rest of it.
+/// Available evidence for one hidden effect, given the other hidden effects.
 std::optional<double> HeldFor(const accuracy::Trial& trial, const std::string& effect) {
   std::vector<effect::EffectConfig> one;
   std::vector<effect::EffectConfig> rest;
@@ -118,8 +118,10 @@ void PrintOne(const accuracy::TrialScore& o) {
 }
 
 void Explain(const accuracy::TrialScore& o) {
-  fmt::print("       {:.2f} of the excess explained, {:.1f} sigma left, gain held out {:.3f}; {}\n",
-             o.explained, o.remainder_sigma, o.achieved, fmt::join(o.nearest, ", "));
+  fmt::print(
+      "       {:.2f} of the excess explained, {:.1f} sigma left, gain on validation data {:.3f}; "
+      "{}\n",
+      o.explained, o.remainder_sigma, o.achieved, fmt::join(o.nearest, ", "));
   static_cast<void>(std::fflush(stdout));
 }
 
@@ -178,7 +180,7 @@ nlohmann::ordered_json Json(const accuracy::TrialScore& o) {
           {"score_nat", o.score_nat},
           {"available_nat", o.available_nat},
           {"held_nat", o.record_nat},
-          {"oracle_failed", o.informed_failed},
+          {"informed_failed", o.informed_failed},
           {"missed", missed},
           {"explained", o.explained},
           {"remainder_sigma", o.remainder_sigma},

@@ -5,9 +5,9 @@
 namespace levitas::cli {
 
 void WriteControllerFile(const std::string& path, const std::string& head,
-                         const config::ControllerFile& controller, const RigNumbers& rig) {
-  const std::string text = head + config::WriteController(controller, rig);
-  (void)config::ParseController(text, path + " (not written)", rig);
+                         const configuration::ControllerFile& controller, const RigNumbers& rig) {
+  const std::string text = head + configuration::WriteController(controller, rig);
+  (void)configuration::ParseController(text, path + " (not written)", rig);
   WriteTextFile(path, text);
 }
 

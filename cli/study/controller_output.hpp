@@ -12,6 +12,6 @@ namespace levitas::cli {
 
 /// `head`: a comment above it, "# ...\n".
 void WriteControllerFile(const std::string& path, const std::string& head,
-                         const config::ControllerFile& controller, const RigNumbers& rig);
+                         const configuration::ControllerFile& controller, const RigNumbers& rig);
 
 }  // namespace levitas::cli

@@ -23,10 +23,10 @@
 #include "cli/study/written_files.hpp"
 #include "cli/text_file.hpp"
 #include "cli/utc_text.hpp"
+#include "diagnosis/diagnose/diagnose_files.hpp"
 #include "diagnosis/levitator/levitator_result.hpp"
 #include "diagnosis/levitator/plan.hpp"
 #include "diagnosis/report/build_report.hpp"
-#include "diagnosis/report/diagnose_files.hpp"
 #include "diagnosis/report/plan.hpp"
 #include "levitas_version.hpp"
 #include "report/diagnosis/diagnosis_files.hpp"
@@ -174,9 +174,9 @@ ExitStatus Run(const DiagnoseOptions& options) {
   if (!found.report.healthy_proposal.empty()) {
     found.report.healthy_record = LastAcceptedSession(inputs.rig, records);
   }
-  PrintDiagnosis(found.report, options.explain);
-  WriteJsonFile(options.json_path, DiagnosisJson(found.report));
-  auto written = WriteDiagnosis(found.report, options.out);
+  report::PrintDiagnosis(found.report, options.explain);
+  WriteJsonFile(options.json_path, report::DiagnosisJson(found.report));
+  auto written = report::WriteDiagnosis(found.report, options.out);
   if (!options.plan.empty()) WritePlan(options.plan, found, written);
   if (!options.json_path.empty()) written.push_back(options.json_path);
   TellWritten(written);

@@ -24,14 +24,15 @@ namespace {
 
 using diagnosis::Record;
 
-config::ControllerFile ControllerOf(const PlanOptions& options, const config::RigFile& rig) {
-  return config::LoadFound(
-      config::FindController(rig.run, options.controller_name, "flexible_rotor"), rig,
+configuration::ControllerFile ControllerOf(const PlanOptions& options,
+                                           const configuration::RigFile& rig) {
+  return configuration::LoadFound(
+      configuration::FindController(rig.run, options.controller_name, "flexible_rotor"), rig,
       options.controller_name);
 }
 
-std::vector<Record> RecordsOf(const PlanOptions& options, const config::RigFile& rig,
-                              const config::ControllerFile& controller) {
+std::vector<Record> RecordsOf(const PlanOptions& options, const configuration::RigFile& rig,
+                              const configuration::ControllerFile& controller) {
   const diagnosis::RigView view(rig.numbers, rig.plant);
   std::vector<Record> records;
   for (const std::string& path : options.data) {
@@ -39,7 +40,8 @@ std::vector<Record> RecordsOf(const PlanOptions& options, const config::RigFile&
   }
   std::uint64_t seed = 1;
   for (const std::string& name : options.scenarios) {
-    const auto scenario = config::LoadScenario(config::FindConfig(name, "scenarios"), rig.numbers);
+    const auto scenario =
+        configuration::LoadScenario(configuration::FindConfig(name, "scenarios"), rig.numbers);
     records.push_back(diagnosis::SimulatedRecord(rig, controller, scenario, seed++));
   }
   for (Record& record : records) {
@@ -54,7 +56,7 @@ std::vector<Record> RecordsOf(const PlanOptions& options, const config::RigFile&
 
 }  // namespace
 
-ExitStatus Plan(const PlanOptions& options, const config::RigFile& rig) {
+ExitStatus Plan(const PlanOptions& options, const configuration::RigFile& rig) {
   if (levitator::IsLevitator(rig.plant)) {
     throw BadInput(fmt::format(
         "--plan without --out knows rotors on radial bearings, and {} is a levitator: diagnose a "
@@ -62,7 +64,7 @@ ExitStatus Plan(const PlanOptions& options, const config::RigFile& rig) {
         rig.numbers.name));
   }
   const diagnosis::Judging judging;
-  const config::ControllerFile controller = ControllerOf(options, rig);
+  const configuration::ControllerFile controller = ControllerOf(options, rig);
   ProgressLine progress(stderr, isatty(STDERR_FILENO) == 1);
   progress.Show(0.01, "reading");
   const diagnosis::HealthyModel model(rig, RecordsOf(options, rig, controller),

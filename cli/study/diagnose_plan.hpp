@@ -21,6 +21,6 @@ struct PlanOptions {
   std::string json_path;
 };
 
-[[nodiscard]] ExitStatus Plan(const PlanOptions& options, const config::RigFile& rig);
+[[nodiscard]] ExitStatus Plan(const PlanOptions& options, const configuration::RigFile& rig);
 
 }  // namespace levitas::cli

@@ -1,5 +1,5 @@
 #pragma once
-// Refuses records that would vouch for themselves: the same data given twice, fitted and held out,
+// Refuses records that would vouch for themselves: the same data given twice, fitted and validated on,
 // or diagnosed and called healthy.
 //
 // Same     the same file by another path, or another file with the same bytes. A session and its

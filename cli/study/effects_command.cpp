@@ -15,7 +15,7 @@
 #include "common/nearest.hpp"
 #include "common/output_file.hpp"
 #include "configuration/schema/unit.hpp"
-#include "plant_sim/plant/effects/clear_entry.hpp"
+#include "plant_sim/plant/applied_effects/clear_entry.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 #include "report/signature/signature.hpp"
 
@@ -55,8 +55,8 @@ void PrintOne(const effect::Row& row) {
              effect::Name(row.place), effect::Name(row.scope), row.meaning, row.equation,
              row.signature, row.source);
   for (const effect::Parameter& p : row.parameters) {
-    const config::Unit& unit = signature::FileUnit(p);
-    const auto text = [&unit](double si) { return config::FromSi(si, unit); };
+    const configuration::Unit& unit = signature::FileUnit(p);
+    const auto text = [&unit](double si) { return configuration::FromSi(si, unit); };
     fmt::print("  {:<22} {} ({} to {}{})\n", effect::FileKey(p), p.meaning, text(p.low),
                text(p.high), p.fallback ? ", default " + text(*p.fallback) : "");
   }

@@ -12,7 +12,7 @@
 #include "common/rotational_speed.hpp"
 #include "report/svg/figure.hpp"
 #include "report/text/text_table.hpp"
-#include "session/session_reader.hpp"
+#include "session/log/session_reader.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -95,10 +95,10 @@ std::size_t Companion(const FreeRunContext& c, const FreeRunSegment& segment, st
 
 std::optional<ControllerOfRecord> ControllerIfKnown(const std::string& record_path,
                                                     const std::string& controller_name,
-                                                    const config::RigFile& rig) {
+                                                    const configuration::RigFile& rig) {
   if (!controller_name.empty()) {
-    const std::string path = config::FindConfig(controller_name, "controllers");
-    auto file = config::LoadController(path, rig.numbers);
+    const std::string path = configuration::FindConfig(controller_name, "controllers");
+    auto file = configuration::LoadController(path, rig.numbers);
     std::string name = fmt::format("{} ({})", file.name, path);
     return ControllerOfRecord{std::move(name), std::move(file)};
   }
@@ -107,21 +107,21 @@ std::optional<ControllerOfRecord> ControllerIfKnown(const std::string& record_pa
     text = session::SessionReader(record_path).header().controller_yaml;
   }
   if (text.empty()) return std::nullopt;
-  auto file = config::ParseController(text, record_path + " (header)", rig.numbers);
+  auto file = configuration::ParseController(text, record_path + " (header)", rig.numbers);
   std::string name = file.name + " (of the session)";
   return ControllerOfRecord{std::move(name), std::move(file)};
 }
 
 std::optional<LawOfRecord> LawIfKnown(const std::string& record_path,
                                       const std::string& controller_name,
-                                      const config::RigFile& rig) {
+                                      const configuration::RigFile& rig) {
   const auto known = ControllerIfKnown(record_path, controller_name, rig);
   if (!known) return std::nullopt;
   return LawOfRecord{known->name, known->file.law};
 }
 
 LawOfRecord FindLaw(const std::string& record_path, const std::string& controller_name,
-                    const config::RigFile& rig) {
+                    const configuration::RigFile& rig) {
   auto known = LawIfKnown(record_path, controller_name, rig);
   if (known) return std::move(*known);
   throw BadInput(record_path +
@@ -134,7 +134,7 @@ void PrintFreeRun(const FreeRunContext& c) {
       "\nFree run in closed loop with the law {}: fit in percent (100: the same; 0: no better "
       "than the mean), * excited\n",
       c.law);
-  TextTable table;
+  report::TextTable table;
   std::vector<std::string> head{"from s", "to s", "rpm"};
   head.insert(head.end(), c.rig.channels.begin(), c.rig.channels.end());
   table.Add(std::move(head));

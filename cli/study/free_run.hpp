@@ -24,12 +24,13 @@ struct FreeRunContext {
 /// A controller and where it is from: "name (path)" or "name (of the session)".
 struct ControllerOfRecord {
   std::string name;
-  config::ControllerFile file;
+  configuration::ControllerFile file;
 };
 
 /// That of the option `controller_name`, else of the session; none in other records.
 [[nodiscard]] std::optional<ControllerOfRecord> ControllerIfKnown(
-    const std::string& record_path, const std::string& controller_name, const config::RigFile& rig);
+    const std::string& record_path, const std::string& controller_name,
+    const configuration::RigFile& rig);
 
 struct LawOfRecord {
   std::string name;
@@ -40,10 +41,11 @@ struct LawOfRecord {
 /// the record names none.
 [[nodiscard]] std::optional<LawOfRecord> LawIfKnown(const std::string& record_path,
                                                     const std::string& controller_name,
-                                                    const config::RigFile& rig);
+                                                    const configuration::RigFile& rig);
 /// The same, refusing a record that names none.
 [[nodiscard]] LawOfRecord FindLaw(const std::string& record_path,
-                                  const std::string& controller_name, const config::RigFile& rig);
+                                  const std::string& controller_name,
+                                  const configuration::RigFile& rig);
 
 void PrintFreeRun(const FreeRunContext& context);
 [[nodiscard]] nlohmann::ordered_json FreeRunJson(const FreeRunContext& context);

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "session/rig_of_session.hpp"
-#include "session/session_reader.hpp"
+#include "session/exchange/rig_of_session.hpp"
+#include "session/log/session_reader.hpp"
 #include "session_index/catalogue.hpp"
 #include "session_index/catalogue_path.hpp"
 
@@ -36,7 +36,7 @@ bool IsOneOf(const std::string& path, const std::vector<std::string>& records) {
   });
 }
 
-bool IsOfRig(const std::string& path, const config::RigFile& rig) {
+bool IsOfRig(const std::string& path, const configuration::RigFile& rig) {
   try {
     const auto own = session::RigOfSession(path);
     return own && own->numbers.channels == rig.numbers.channels &&
@@ -48,7 +48,7 @@ bool IsOfRig(const std::string& path, const config::RigFile& rig) {
 
 }  // namespace
 
-std::string LastAcceptedSession(const config::RigFile& rig,
+std::string LastAcceptedSession(const configuration::RigFile& rig,
                                 const std::vector<std::string>& records) {
   try {
     const auto file = session_index::CataloguePath();

@@ -15,7 +15,7 @@
 namespace levitas::cli {
 
 /// Empty where there is none.
-[[nodiscard]] std::string LastAcceptedSession(const config::RigFile& rig,
+[[nodiscard]] std::string LastAcceptedSession(const configuration::RigFile& rig,
                                               const std::vector<std::string>& records);
 
 }  // namespace levitas::cli

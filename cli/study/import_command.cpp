@@ -16,13 +16,13 @@
 #include "configuration/rig_file.hpp"
 #include "levitas_version.hpp"
 #include "rt/say.hpp"
-#include "session/candump_import.hpp"
-#include "session/coil_scales.hpp"
-#include "session/column_guess.hpp"
-#include "session/column_map.hpp"
-#include "session/csv_import.hpp"
-#include "session/output_path.hpp"
-#include "session/recording.hpp"
+#include "session/exchange/candump_import.hpp"
+#include "session/exchange/coil_scales.hpp"
+#include "session/exchange/column_guess.hpp"
+#include "session/exchange/column_map.hpp"
+#include "session/exchange/csv_import.hpp"
+#include "session/exchange/recording.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -80,7 +80,7 @@ void Print(const std::string& out_path, const session::ImportReport& report,
   for (const auto& column : report.implausible) rt::Say("amb: warning: " + column.sentence);
 }
 
-ExitStatus ImportBusLog(const ImportCommandOptions& options, const config::RigFile& rig,
+ExitStatus ImportBusLog(const ImportCommandOptions& options, const configuration::RigFile& rig,
                         const session::ImportOptions& import) {
   if (rig.buses.empty()) {
     throw BadInput(options.rig_name + ": names no CAN buses (section buses, docs/real_rig.md)");
@@ -116,7 +116,8 @@ bool IsBusLog(const std::string& path) {
 /// Of a guess: a map for a person to confirm.
 ExitStatus Guess(const ImportCommandOptions& options) {
   session::CheckOutputPath(options.json_path, options.data_path);
-  const config::RigFile rig = config::LoadRig(config::FindConfig(options.rig_name, "rigs"));
+  const configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig(options.rig_name, "rigs"));
   const session::ColumnGuess guess = session::GuessColumns(
       options.data_path.ends_with(".mat")
           ? session::SampleMat(options.data_path, rig.log.matrix, rig.log.rows)
@@ -152,7 +153,8 @@ ExitStatus Suggest(const ImportCommandOptions& options) {
         ExitStatus::kUsage,
         "--suggest: sessions and logs of candump have no columns; give a CSV or MAT file");
   }
-  const config::RigFile rig = config::LoadRig(config::FindConfig(options.rig_name, "rigs"));
+  const configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig(options.rig_name, "rigs"));
   const bool mapped = !options.map_path.empty();
   const session::ColumnMap present =
       mapped ? session::LoadColumnMap(options.map_path) : session::ColumnMap{};
@@ -193,11 +195,12 @@ ExitStatus Import(const ImportCommandOptions& options) {
     session::CheckOutputPath(path, options.data_path);
   }
   session::CheckNoRecording(options.out_path, options.overwrite);
-  const config::RigFile rig = config::LoadRig(config::FindConfig(options.rig_name, "rigs"));
+  const configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig(options.rig_name, "rigs"));
   session::ImportOptions import{.data_path = options.data_path,
                                 .out_path = options.out_path,
                                 .rig = rig.numbers,
-                                .rig_yaml = config::WriteRig(rig),
+                                .rig_yaml = configuration::WriteRig(rig),
                                 .program_version = LEVITAS_VERSION,
                                 .start_utc_ns = UtcNowNs(),
                                 .coils = session::CoilScales(rig.plant, rig.numbers.axes()),

@@ -74,7 +74,7 @@ nlohmann::ordered_json FaultJson(const Prediction& p) {
 }  // namespace
 
 std::string IsolabilityText(const std::vector<Foretold>& all) {
-  TextTable table;
+  report::TextTable table;
   table.Add({"fault", "where", "size", "nat left", "evidence", "from", "next nat", "chance %"});
   for (const Foretold& one : all) {
     const Prediction& p = one.prediction;

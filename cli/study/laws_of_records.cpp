@@ -14,7 +14,7 @@ struct Found {
   std::string text;  ///< complete: tells laws of one name apart
 };
 
-std::optional<Found> FindFor(const std::string& record, const config::RigFile& rig) {
+std::optional<Found> FindFor(const std::string& record, const configuration::RigFile& rig) {
   try {
     auto law = LawIfKnown(record, "", rig);
     if (!law && !rig.run.controller.empty()) {
@@ -22,9 +22,9 @@ std::optional<Found> FindFor(const std::string& record, const config::RigFile& r
       if (law) law->name += ", which the rig file names";
     }
     if (!law) return std::nullopt;
-    config::ControllerFile file;
+    configuration::ControllerFile file;
     file.law = law->law;
-    return Found{*law, config::WriteController(file, rig.numbers)};
+    return Found{*law, configuration::WriteController(file, rig.numbers)};
   } catch (const BadInput&) {  // a law that does not fit this rig is no reason to refuse a record
     return std::nullopt;
   }
@@ -33,7 +33,7 @@ std::optional<Found> FindFor(const std::string& record, const config::RigFile& r
 }  // namespace
 
 diagnosis::KnownLaws LawsOfRecords(const std::vector<std::string>& records,
-                                   const config::RigFile& rig) {
+                                   const configuration::RigFile& rig) {
   diagnosis::KnownLaws known;
   std::vector<std::string> texts;
   for (const std::string& record : records) {

@@ -15,6 +15,6 @@
 namespace levitas::cli {
 
 [[nodiscard]] diagnosis::KnownLaws LawsOfRecords(const std::vector<std::string>& records,
-                                                 const config::RigFile& rig);
+                                                 const configuration::RigFile& rig);
 
 }  // namespace levitas::cli

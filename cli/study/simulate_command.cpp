@@ -23,7 +23,7 @@
 #include "cli/study/innovation_files.hpp"
 #include "common/rotational_speed.hpp"
 #include "report/text/text_table.hpp"
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -59,7 +59,7 @@ struct FreeLoop {
 };
 
 struct Simulation {
-  config::RigFile rig;
+  configuration::RigFile rig;
   analysis::ObserverGain gain;
   analysis::InnovationRun run;
   analysis::InnovationReport report;
@@ -72,7 +72,7 @@ struct Simulation {
 void PrintCoils(const Simulation& s) {
   if (s.coils.empty()) return;
   fmt::print("\nCoil currents of the model at the recorded commands and positions\n");
-  TextTable table;
+  report::TextTable table;
   table.Add({"coil", "fit %", "mean measured A", "predicted A", "rms difference A"});
   for (const auto& coil : s.coils) {
     table.Add({coil.coil, fmt::format("{:.2f}", coil.fit_percent),
@@ -108,7 +108,7 @@ void CutBeginning(std::vector<analysis::RecordedRow>& rows, double from_s, doubl
 double Percent(double share) { return 100.0 * std::min(1.0, share); }
 
 void PrintChannels(const Simulation& s) {
-  TextTable table;
+  report::TextTable table;
   table.Add({"channel", "rms um", "x noise", "expected", "peak x", "lag 1", "strongest line Hz"});
   for (std::size_t i = 0; i < s.report.channels.size(); ++i) {
     const auto& c = s.report.channels[i];
@@ -125,7 +125,7 @@ void PrintChannels(const Simulation& s) {
 template <class Entries, class Head, class Cell>
 std::string ByChannel(const Simulation& s, const std::string& corner, Entries entries, Head head,
                       Cell cell) {
-  TextTable table;
+  report::TextTable table;
   std::vector<std::string> row{corner};
   for (const auto& entry : entries(s.report.channels.front())) row.push_back(head(entry));
   table.Add(row);
@@ -177,7 +177,7 @@ void PrintOrders(const Simulation& s) {
 }
 
 void PrintWindows(const Simulation& s) {
-  TextTable table;
+  report::TextTable table;
   std::vector<std::string> from{"from s"};
   std::vector<std::string> speed{"rpm"};
   for (const auto& window : s.report.channels.front().windows) {
@@ -238,7 +238,7 @@ void Print(const Simulation& s, const SimulateOptions& options) {
 }
 
 /// Refuses a record that a free run has no law or no test signal of, before the work is done.
-FreeLoop WithLaw(const SimulateOptions& options, const config::RigFile& rig,
+FreeLoop WithLaw(const SimulateOptions& options, const configuration::RigFile& rig,
                  session::Recording recording) {
   FreeLoop free{
       std::move(recording), FindLaw(options.session_path, options.controller_name, rig), {}};

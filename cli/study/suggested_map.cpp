@@ -10,13 +10,13 @@
 #include "analysis/records/recorded_rows.hpp"
 #include "common/problem.hpp"
 #include "diagnosis/record_errors/find.hpp"
-#include "session/column_guess.hpp"
-#include "session/column_map.hpp"
-#include "session/csv_rows.hpp"
-#include "session/mat_rows.hpp"
-#include "session/measured_data.hpp"
-#include "session/record_frame.hpp"
-#include "session/recording.hpp"
+#include "session/exchange/column_guess.hpp"
+#include "session/exchange/column_map.hpp"
+#include "session/exchange/csv_rows.hpp"
+#include "session/exchange/mat_rows.hpp"
+#include "session/exchange/measured_data.hpp"
+#include "session/exchange/recording.hpp"
+#include "session/log/record_frame.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -54,7 +54,7 @@ session::ColumnMap Completed(session::ColumnMap map, const session::ColumnGuess&
   return map;
 }
 
-diagnosis::Record Load(const std::string& path, const config::RigFile& rig,
+diagnosis::Record Load(const std::string& path, const configuration::RigFile& rig,
                        const session::ColumnMap& map) {
   diagnosis::Record out;
   out.name = std::filesystem::path(path).filename().string();
@@ -143,7 +143,7 @@ std::string LineOf(const MappedColumn& column, const Use& use) {
 
 }  // namespace
 
-SuggestedMap SuggestMap(const std::string& data_path, const config::RigFile& rig,
+SuggestedMap SuggestMap(const std::string& data_path, const configuration::RigFile& rig,
                         const session::ColumnMap* map, const std::string& import) {
   const session::SampledColumns sampled =
       data_path.ends_with(".mat") ? session::SampleMat(data_path, rig.log.matrix, rig.log.rows)

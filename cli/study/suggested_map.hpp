@@ -12,7 +12,7 @@
 
 #include "configuration/rig_file.hpp"
 #include "diagnosis/record_errors/record_error.hpp"
-#include "session/column_map.hpp"
+#include "session/exchange/column_map.hpp"
 
 namespace levitas::cli {
 
@@ -23,7 +23,8 @@ struct SuggestedMap {
 
 /// `map`: what the columns are taken for so far, or nullptr. `import` is the command that takes the
 /// suggested one.
-[[nodiscard]] SuggestedMap SuggestMap(const std::string& data_path, const config::RigFile& rig,
+[[nodiscard]] SuggestedMap SuggestMap(const std::string& data_path,
+                                      const configuration::RigFile& rig,
                                       const session::ColumnMap* map, const std::string& import);
 
 }  // namespace levitas::cli

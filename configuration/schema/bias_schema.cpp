@@ -3,7 +3,7 @@
 
 #include "configuration/schema/schema.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 
 using namespace unit;
 
@@ -32,4 +32,4 @@ void Describe(Visitor& v, bias::BiasConfig& bias, const RigNumbers& rig) {
            bias.raising_time_s);
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

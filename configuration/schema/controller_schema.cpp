@@ -8,7 +8,7 @@
 #include "configuration/schema/schema.hpp"
 #include "controller/law/law_schedule.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 using namespace unit;
@@ -165,4 +165,4 @@ void Describe(Visitor& v, ControllerFile& controller, const RigNumbers& rig) {
       std::min(rig.bias_current_a, rig.max_coil_current_a - rig.bias_current_a);
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -9,7 +9,7 @@
 #include "plant_sim/effect/catalogue.hpp"
 #include "plant_sim/plant/check_config.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 using namespace unit;
@@ -159,4 +159,4 @@ void DescribeEffects(Visitor& v, RigFile& rig) {
   v.RefuseIf(!problem.empty(), "effects", problem);
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -8,7 +8,7 @@
 
 #include "configuration/schema/schema.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 using namespace unit;
@@ -176,4 +176,4 @@ void Describe(Visitor& v, scenario::Excitation& excitation, const RigNumbers& ri
   });
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -6,7 +6,7 @@
 
 #include "configuration/schema/schema.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 using namespace unit;
@@ -111,4 +111,4 @@ void Describe(Visitor& v, gpio::LinesConfig& lines, double period_s) {
   if (!present) lines = {};
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

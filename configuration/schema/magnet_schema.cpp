@@ -7,7 +7,7 @@
 #include "configuration/schema/schema.hpp"
 #include "plant_sim/magnet/magnet.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 using namespace unit;
@@ -144,4 +144,4 @@ void Describe(Visitor& v, plant::AmplifierConfig& amplifier) {
             amplifier.dac_bits);
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

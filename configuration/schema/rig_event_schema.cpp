@@ -3,7 +3,7 @@
 
 #include "configuration/schema/schema.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 using namespace unit;
@@ -56,4 +56,4 @@ void Describe(Visitor& v, ScheduledRigEvent& event, const RigNumbers& rig) {
   });
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

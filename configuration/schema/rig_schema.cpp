@@ -10,7 +10,7 @@
 #include "configuration/schema/schema.hpp"
 #include "plant_sim/sensor/characteristic.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 using namespace unit;
@@ -331,4 +331,4 @@ void Describe(Visitor& v, RigFile& rig) {
   DescribeEffects(v, rig);
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -7,7 +7,7 @@
 
 #include "configuration/schema/schema.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 using namespace unit;
@@ -196,4 +196,4 @@ void Describe(Visitor& v, rotor::RotorConfig& rotor, std::vector<plant::Unbalanc
          });
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -7,7 +7,7 @@
 #include "common/rotational_speed.hpp"
 #include "configuration/schema/schema.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 using namespace unit;
@@ -121,4 +121,4 @@ void Describe(Visitor& v, scenario::ScenarioConfig& scenario, const RigNumbers& 
          [&](ScheduledRigEvent& event, std::size_t) { Describe(v, event, rig); });
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

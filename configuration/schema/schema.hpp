@@ -5,7 +5,7 @@
 #include "configuration/rig_file.hpp"
 #include "configuration/schema/visitor.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 
 void Describe(Visitor& v, RigFile& rig);
 /// `rig` gives the bearing and channel names, the period and the current limits.
@@ -49,4 +49,4 @@ void DescribeChannel(Visitor& v, const RigNumbers& rig, std::string& channel, st
 void RefuseBeyondShaft(Visitor& v, const rotor::RotorConfig& rotor, double z_m,
                        std::string_view key);
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

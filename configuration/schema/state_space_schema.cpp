@@ -8,7 +8,7 @@
 #include "configuration/schema/schema.hpp"
 #include "controller/law/hidden_states.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 using namespace unit;
@@ -143,4 +143,4 @@ void Describe(Visitor& v, law::StateSpaceConfig& law, const RigNumbers& rig) {
   RefuseHiddenGrowth(v, law);
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

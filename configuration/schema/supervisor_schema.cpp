@@ -3,7 +3,7 @@
 
 #include "configuration/schema/schema.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 using namespace unit;
@@ -85,4 +85,4 @@ void Describe(Visitor& v, supervisor::SupervisorConfig& supervisor) {
           [&] { Describe(v, supervisor.protection); });
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

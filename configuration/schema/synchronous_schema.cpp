@@ -10,7 +10,7 @@
 #include "controller/synchronous/inverse_ladder.hpp"
 #include "controller/synchronous/orbit_slip.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 using namespace unit;
@@ -244,4 +244,4 @@ void Describe(Visitor& v, synchronous::SynchronousConfig& control, const RigNumb
   RefuseLostOrbit(v, control);
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -1,7 +1,7 @@
 // Table of what a healthy rig may differ by from its file.
 #include "configuration/schema/schema.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 using namespace unit;
@@ -59,4 +59,4 @@ void DescribeTolerances(Visitor& v, std::optional<Tolerances>& tolerances) {
                   });
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

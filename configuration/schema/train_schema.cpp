@@ -9,7 +9,7 @@
 #include "plant_sim/plant/train_model.hpp"
 #include "plant_sim/rotor/lumped_shaft.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 using namespace unit;
@@ -261,4 +261,4 @@ void DescribeTrain(Visitor& v, plant::PlantConfig& plant) {
   RefuseIdleShafts(v, plant);
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 using namespace unit;
@@ -196,4 +196,4 @@ std::string FromSi(double si, const Unit& unit) {
 
 std::string BoundText(double bound) { return FromSi(bound, kOne); }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

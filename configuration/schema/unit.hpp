@@ -13,7 +13,7 @@
 #include <string>
 #include <string_view>
 
-namespace levitas::config {
+namespace levitas::configuration {
 
 struct Unit {
   std::string_view suffix;     ///< of the key, "mm"; empty: a pure number
@@ -97,4 +97,4 @@ inline constexpr Unit kGainD{"a_s_per_m", "A s/m", "derivative gain"};
 /// Shortest text of a bound of the tables, "0.05", "1e-06".
 [[nodiscard]] std::string BoundText(double bound);
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

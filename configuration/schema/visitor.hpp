@@ -17,7 +17,7 @@
 
 #include "configuration/schema/unit.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 
 inline constexpr std::nullopt_t kRequired = std::nullopt;
 
@@ -158,4 +158,4 @@ class Visitor {
   return key;
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

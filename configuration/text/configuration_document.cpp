@@ -6,7 +6,7 @@
 #include "configuration/schema/schema.hpp"
 #include "configuration/text/documenter.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 constexpr std::string_view kIntroduction = R"(# Configuration files
@@ -128,4 +128,4 @@ std::string ConfigurationDocument() {
   return text + UnitTable();
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

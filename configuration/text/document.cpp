@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 Place At(const YAML::Mark& mark) { return {mark.line + 1, mark.column + 1}; }
@@ -169,4 +169,4 @@ Document ReadDocument(const std::string& text) {
   return document;
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace levitas::config {
+namespace levitas::configuration {
 
 inline constexpr std::size_t kMostBytes = std::size_t{4} << 20;
 
@@ -46,4 +46,4 @@ struct Document {
 
 [[nodiscard]] Document ReadDocument(const std::string& text);
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

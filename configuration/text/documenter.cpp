@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 std::string Code(std::string_view text) { return fmt::format("`{}`", text); }
@@ -118,4 +118,4 @@ std::string Documenter::Markdown() const {
   return text;
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

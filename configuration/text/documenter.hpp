@@ -6,7 +6,7 @@
 
 #include "configuration/schema/visitor.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 
 class Documenter : public Visitor {
  public:
@@ -54,4 +54,4 @@ class Documenter : public Visitor {
 /// docs/configuration.md as it must read for the present tables.
 [[nodiscard]] std::string ConfigurationDocument();
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -9,7 +9,7 @@
 
 #include "configuration/text/reader.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 
 /// The text of a file of at most kMostBytes (document.hpp); a longer one is refused when parsed.
 [[nodiscard]] std::string ReadText(const std::string& path);
@@ -30,4 +30,4 @@ template <class Value, class Describe>
   return value;
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -11,7 +11,7 @@
 #include "common/nearest.hpp"
 #include "common/problem.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 /// All keys a number may be written under: its own unit first, then others of the same dimension.
@@ -304,4 +304,4 @@ const std::string* Reader::Scalar(const Entry& entry, const Text& allowed, bool 
   return nullptr;
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

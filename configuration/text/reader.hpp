@@ -15,7 +15,7 @@
 #include "configuration/schema/visitor.hpp"
 #include "configuration/text/document.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 
 class Reader : public Visitor {
  public:
@@ -101,7 +101,7 @@ class Reader : public Visitor {
   void CloseFrame();
   void ReportUnknown(Frame& frame);
   [[nodiscard]] static std::string Meant(const Frame& frame, std::string key);
-  void ExplainStrays();
+  void ExplainUnknownKeys();
   void ReportMissing(const Frame& frame);
   void ReportAbsentGroup();
   void ReportDuplicates(const Frame& frame);
@@ -112,10 +112,10 @@ class Reader : public Visitor {
   std::vector<OpenList> lists_;
   std::vector<Problem> problems_;
   std::map<std::string, std::string> homes_;  ///< every key met, and the first group it is of
-  std::vector<std::pair<std::size_t, std::string>> strays_;  ///< problem and its unknown key
-  std::map<std::string, Foreign> foreign_;                   ///< by owner
+  std::vector<std::pair<std::size_t, std::string>> unknown_keys_;  ///< problem and its unknown key
+  std::map<std::string, Foreign> foreign_;                         ///< by owner
   bool probing_{};  ///< only the keys of a form are being collected
   std::vector<std::string> probed_;
 };
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -8,7 +8,7 @@
 #include "common/problem.hpp"
 #include "configuration/text/reader.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 
 Reader::Reader(const Document& document, std::string file_name) : file_name_(std::move(file_name)) {
   const Node* root = &document.root;
@@ -44,7 +44,7 @@ void Reader::Finish() {
 
 void Reader::FinishEarly() {
   if (problems_.empty()) return;
-  ExplainStrays();
+  ExplainUnknownKeys();
   std::ranges::stable_sort(problems_, {}, &Problem::place);
   std::string text;
   if (problems_.size() > 1)
@@ -179,7 +179,7 @@ void Reader::ReportUnknown(Frame& frame) {
     if (meant.empty()) {
       std::vector<std::string> documented;
       for (const Expected& field : frame.expected) documented.push_back(field.key);
-      strays_.push_back({problems_.size(), key});
+      unknown_keys_.push_back({problems_.size(), key});
       Report(place, key,
              documented.empty() ? std::string("unknown key; none is allowed here")
                                 : fmt::format("unknown key; known here: {}", Listed(documented)));
@@ -194,8 +194,8 @@ void Reader::ReportUnknown(Frame& frame) {
 }
 
 // A key that is unknown where it stands but known in another group has usually slipped out of it.
-void Reader::ExplainStrays() {
-  for (const auto& [problem, key] : strays_) {
+void Reader::ExplainUnknownKeys() {
+  for (const auto& [problem, key] : unknown_keys_) {
     const auto home = homes_.find(key);
     if (home != homes_.end())
       problems_[problem].text.append("; it belongs under ").append(home->second);
@@ -262,4 +262,4 @@ void Reader::BeginItem(std::size_t index) {
 
 void Reader::EndList() { lists_.pop_back(); }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

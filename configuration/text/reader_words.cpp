@@ -7,7 +7,7 @@
 #include "common/nearest.hpp"
 #include "configuration/text/reader.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 
 void Reader::Words(const WordsField& field, std::uint32_t& mask) {
   const Entry entry = Take({std::string(field.key)});
@@ -86,4 +86,4 @@ void Reader::Variant(const ChoiceField& field, std::size_t& index,
   body(index);
 }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

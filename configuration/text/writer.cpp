@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace levitas::config {
+namespace levitas::configuration {
 
 void Writer::Line(std::string_view key, std::string_view value) {
   const std::size_t indent = 2 * depth_ - (item_begins_ ? 2 : 0);
@@ -82,4 +82,4 @@ void Writer::BeginItem(std::size_t) {
 
 void Writer::EndList() { --depth_; }
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -6,7 +6,7 @@
 
 #include "configuration/schema/visitor.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 
 class Writer : public Visitor {
  public:
@@ -39,4 +39,4 @@ class Writer : public Visitor {
   bool item_begins_{};  ///< the next line carries the dash
 };
 
-}  // namespace levitas::config
+}  // namespace levitas::configuration

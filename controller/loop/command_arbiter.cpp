@@ -4,8 +4,8 @@
 
 namespace levitas::loop {
 
-CommandArbiter::CommandArbiter(const DeskOptions& options, scenario::ScenarioPlayer* player,
-                               const RemoteDesk& remote)
+CommandArbiter::CommandArbiter(const ArbiterOptions& options, scenario::ScenarioPlayer* player,
+                               const RemoteCommands& remote)
     : duration_cycles_(options.duration_s > 0.0
                            ? std::optional(static_cast<std::uint64_t>(
                                  std::llround(options.duration_s / options.period_s)))

@@ -1,13 +1,13 @@
 #pragma once
-// The command arbiter, the operator's desk: decides in each cycle who gives the command.
+// The command arbiter: decides in each cycle who gives the command.
 //
 // Order    an emergency stop before everything, in every state, also in a full ring; then the end
 //          of the program before a remote command before the scenario. A remote command that its
 //          sender gave before a stop is dropped after it: a stop is not undone by what is older.
 // The end  a finished or failed scenario, RequestStop and the duration all end in the same way:
 //          run down under the drive, land, amplifiers off. A trip under a scenario ends the same
-//          way; without a scenario the desk waits for a reset. Where the magnets have let go of a
-//          turning rotor the desk stays, and the supervisor brakes, until the rotor stands or its
+//          way; without a scenario the arbiter waits for a reset. Where the magnets have let go of a
+//          turning rotor the arbiter stays, and the supervisor brakes, until the rotor stands or its
 //          brake fails. As a table: end_table.hpp; what happens in it: end_of_run.hpp.
 // Test signals  a remote one is added to the scenario's. It begins in the cycle after its command,
 //          unless that was refused, and ends by its own length, by command, by a new one, with a
@@ -50,14 +50,14 @@ struct GivenCommand {
   CommandOrigin origin;
 };
 
-/// What the desk shares with the threads of the network; each may be null.
-struct RemoteDesk {
+/// What the arbiter shares with the threads of the network; each may be null.
+struct RemoteCommands {
   SpscRing<RemoteCommand>* commands{nullptr};
   StopLatch* stops{nullptr};
   SpscRing<GivenCommand>* given{nullptr};
 };
 
-struct DeskOptions {
+struct ArbiterOptions {
   double period_s{};
   double stop_acceleration_rad_per_s2{};  ///< of the drive when running down to end
   double standstill_rad_per_s{};          ///< below this the rotor counts as standing
@@ -70,8 +70,8 @@ struct DeskOptions {
 class CommandArbiter final : public OperatorSource {
  public:
   /// `player` may be null.
-  CommandArbiter(const DeskOptions& options, scenario::ScenarioPlayer* player,
-                 const RemoteDesk& remote);
+  CommandArbiter(const ArbiterOptions& options, scenario::ScenarioPlayer* player,
+                 const RemoteCommands& remote);
 
   [[nodiscard]] cycle::OperatorInput Next(const OperatorView& view) noexcept override;
   [[nodiscard]] bool Done() const noexcept override { return end_.state() == EndState::kDone; }
@@ -112,7 +112,7 @@ class CommandArbiter final : public OperatorSource {
   std::optional<std::uint64_t> duration_cycles_;
   std::optional<std::uint64_t> first_cycle_;
   scenario::ScenarioPlayer* player_;
-  RemoteDesk remote_;
+  RemoteCommands remote_;
   std::optional<RemoteCommand> mark_;
   std::int64_t stop_received_ns_{0};
   std::atomic<bool> stop_requested_{false};

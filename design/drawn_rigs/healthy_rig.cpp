@@ -13,8 +13,8 @@ using effect::Id;
 
 class Drawing {
  public:
-  Drawing(config::RigFile& rig, Random& draw)
-      : rig_(rig), draw_(draw), by_(rig.tolerances.value_or(config::Tolerances{})) {}
+  Drawing(configuration::RigFile& rig, Random& draw)
+      : rig_(rig), draw_(draw), by_(rig.tolerances.value_or(configuration::Tolerances{})) {}
 
   void Run() {
     plant::PlantConfig& plant = rig_.plant;
@@ -89,15 +89,15 @@ class Drawing {
     return moved_m < low_m || moved_m > high_m ? -shift_m : shift_m;
   }
 
-  config::RigFile& rig_;
+  configuration::RigFile& rig_;
   Random& draw_;
-  config::Tolerances by_;
+  configuration::Tolerances by_;
 };
 
 }  // namespace
 
-config::RigFile DrawWithin(const config::RigFile& rig, Random& draw) {
-  config::RigFile out = rig;
+configuration::RigFile DrawWithin(const configuration::RigFile& rig, Random& draw) {
+  configuration::RigFile out = rig;
   Drawing(out, draw).Run();
   return out;
 }

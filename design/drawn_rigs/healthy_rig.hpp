@@ -16,6 +16,6 @@ namespace levitas::uncertainty {
 
 /// Numbers of the file change where the file has them, the rest is added as entries of `effects`;
 /// nothing else changes.
-[[nodiscard]] config::RigFile DrawWithin(const config::RigFile& rig, Random& draw);
+[[nodiscard]] configuration::RigFile DrawWithin(const configuration::RigFile& rig, Random& draw);
 
 }  // namespace levitas::uncertainty

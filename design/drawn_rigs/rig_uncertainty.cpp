@@ -21,7 +21,8 @@ struct Sizes {
   std::function<double(std::size_t axis)> stiffness;
 };
 
-std::vector<Parameter> Around(const config::RigFile& rig, const Sizes& sizes, std::size_t modes) {
+std::vector<Parameter> Around(const configuration::RigFile& rig, const Sizes& sizes,
+                              std::size_t modes) {
   const plant::PlantModel model(rig.plant);
   std::vector<Parameter> out;
   // Geared shafts share their modes: no effect moves one of them alone.
@@ -83,7 +84,7 @@ constexpr double kDeviations = 3.0;
 
 }  // namespace
 
-std::vector<Parameter> Stated(const config::RigFile& rig, const StatedUncertainty& stated) {
+std::vector<Parameter> Stated(const configuration::RigFile& rig, const StatedUncertainty& stated) {
   return Around(rig,
                 {.frequency_hz = [&](std::size_t, double) { return stated.mode_hz; },
                  .damping_share = Always(stated.damping_share),
@@ -92,8 +93,8 @@ std::vector<Parameter> Stated(const config::RigFile& rig, const StatedUncertaint
                 stated.modes);
 }
 
-std::vector<Parameter> FromTolerances(const config::RigFile& rig, std::size_t modes) {
-  const config::Tolerances t = rig.tolerances.value_or(config::Tolerances{});
+std::vector<Parameter> FromTolerances(const configuration::RigFile& rig, std::size_t modes) {
+  const configuration::Tolerances t = rig.tolerances.value_or(configuration::Tolerances{});
   const double frequency_share = kDeviations * t.modal_frequency;
   return Around(rig,
                 {.frequency_hz = [=](std::size_t, double hz) { return frequency_share * hz; },
@@ -103,7 +104,7 @@ std::vector<Parameter> FromTolerances(const config::RigFile& rig, std::size_t mo
                 modes);
 }
 
-std::vector<Parameter> FromIdentification(const config::RigFile& rig,
+std::vector<Parameter> FromIdentification(const configuration::RigFile& rig,
                                           const IdentifiedDeviations& found) {
   if (found.current_gain.size() != rig.numbers.axes() ||
       found.stiffness.size() != rig.numbers.axes() ||
@@ -144,11 +145,12 @@ std::vector<double> DrawPlace(Random& draw, std::size_t parameters) {
   return out;
 }
 
-config::RigFile At(const config::RigFile& rig, const std::vector<Parameter>& parameters,
-                   const std::vector<double>& place) {
+configuration::RigFile At(const configuration::RigFile& rig,
+                          const std::vector<Parameter>& parameters,
+                          const std::vector<double>& place) {
   if (place.size() != parameters.size())
     throw std::invalid_argument("a drawn rig needs one place per parameter");
-  config::RigFile out = rig;
+  configuration::RigFile out = rig;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const Parameter& p = parameters[i];
     const double value = 0.5 * (p.low + p.high) + place[i] * p.size();
@@ -179,11 +181,11 @@ config::RigFile At(const config::RigFile& rig, const std::vector<Parameter>& par
   return out;
 }
 
-std::vector<config::RigFile> DrawRigs(const config::RigFile& rig,
-                                      const std::vector<Parameter>& parameters, std::size_t count,
-                                      std::uint64_t seed) {
+std::vector<configuration::RigFile> DrawRigs(const configuration::RigFile& rig,
+                                             const std::vector<Parameter>& parameters,
+                                             std::size_t count, std::uint64_t seed) {
   Random draw(seed);
-  std::vector<config::RigFile> rigs;
+  std::vector<configuration::RigFile> rigs;
   rigs.reserve(count);
   for (std::size_t n = 0; n < count; ++n) {
     rigs.push_back(At(rig, parameters, DrawPlace(draw, parameters.size())));

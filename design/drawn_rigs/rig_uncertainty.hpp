@@ -38,9 +38,10 @@ struct StatedUncertainty {
   std::size_t modes{4};
 };
 
-[[nodiscard]] std::vector<Parameter> Stated(const config::RigFile& rig,
+[[nodiscard]] std::vector<Parameter> Stated(const configuration::RigFile& rig,
                                             const StatedUncertainty& stated);
-[[nodiscard]] std::vector<Parameter> FromTolerances(const config::RigFile& rig, std::size_t modes);
+[[nodiscard]] std::vector<Parameter> FromTolerances(const configuration::RigFile& rig,
+                                                    std::size_t modes);
 
 /// Standard deviations, of flexible modes from the first on and of axes.
 struct IdentifiedDeviations {
@@ -49,7 +50,7 @@ struct IdentifiedDeviations {
   std::vector<double> current_gain;   ///< of ki [1]
   std::vector<double> stiffness;      ///< of ks [1]
 };
-[[nodiscard]] std::vector<Parameter> FromIdentification(const config::RigFile& rig,
+[[nodiscard]] std::vector<Parameter> FromIdentification(const configuration::RigFile& rig,
                                                         const IdentifiedDeviations& found);
 
 /// "mode 2 frequency [Hz]", "ki de_x [1]"
@@ -59,13 +60,13 @@ struct IdentifiedDeviations {
 /// Uniform in -1..1 for each parameter.
 [[nodiscard]] std::vector<double> DrawPlace(Random& draw, std::size_t parameters);
 /// `place` has one number in -1..1 per parameter.
-[[nodiscard]] config::RigFile At(const config::RigFile& rig,
-                                 const std::vector<Parameter>& parameters,
-                                 const std::vector<double>& place);
+[[nodiscard]] configuration::RigFile At(const configuration::RigFile& rig,
+                                        const std::vector<Parameter>& parameters,
+                                        const std::vector<double>& place);
 
 /// So many rigs, every parameter of each drawn by DrawPlace.
-[[nodiscard]] std::vector<config::RigFile> DrawRigs(const config::RigFile& rig,
-                                                    const std::vector<Parameter>& parameters,
-                                                    std::size_t count, std::uint64_t seed);
+[[nodiscard]] std::vector<configuration::RigFile> DrawRigs(const configuration::RigFile& rig,
+                                                           const std::vector<Parameter>& parameters,
+                                                           std::size_t count, std::uint64_t seed);
 
 }  // namespace levitas::uncertainty

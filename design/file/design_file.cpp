@@ -8,8 +8,8 @@
 namespace levitas::design {
 namespace {
 
-using namespace config;
-using namespace config::unit;
+using namespace configuration;
+using namespace configuration::unit;
 
 constexpr std::size_t kMostBearings = 8;
 constexpr std::size_t kMostModes = 98;

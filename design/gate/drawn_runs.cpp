@@ -59,8 +59,8 @@ void StartTurning(const RunOptions& options, double rate_rad_per_s2, plant::Plan
 
 }  // namespace
 
-config::RigFile WithThirdHarmonic(const config::RigFile& rig, double newtons) {
-  config::RigFile out = rig;
+configuration::RigFile WithThirdHarmonic(const configuration::RigFile& rig, double newtons) {
+  configuration::RigFile out = rig;
   if (!rig.plant.shafts.empty() || !(newtons > 0.0)) return out;
   effect::EffectConfig entry;
   entry.id = effect::Id::kMisalignment;
@@ -71,7 +71,7 @@ config::RigFile WithThirdHarmonic(const config::RigFile& rig, double newtons) {
   return out;
 }
 
-RunFigures RunOnce(const config::RigFile& rig, const law::LawConfig& law,
+RunFigures RunOnce(const configuration::RigFile& rig, const law::LawConfig& law,
                    const RunOptions& options) {
   constexpr double kAllowedShare = 0.5;
   plant::Plant plant(rig.plant, options.seed);

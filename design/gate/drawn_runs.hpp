@@ -36,11 +36,12 @@ struct RunFigures {
   std::vector<AxisArray> positions_m;  ///< when kept
 };
 
-[[nodiscard]] RunFigures RunOnce(const config::RigFile& rig, const law::LawConfig& law,
+[[nodiscard]] RunFigures RunOnce(const configuration::RigFile& rig, const law::LawConfig& law,
                                  const RunOptions& options);
 
 /// A force of `newtons` at three times the speed, against rotation, at the shaft's drive end: what
 /// a misaligned coupling does. Rigs with geared shafts stay as they are.
-[[nodiscard]] config::RigFile WithThirdHarmonic(const config::RigFile& rig, double newtons);
+[[nodiscard]] configuration::RigFile WithThirdHarmonic(const configuration::RigFile& rig,
+                                                       double newtons);
 
 }  // namespace levitas::design

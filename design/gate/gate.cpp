@@ -32,7 +32,7 @@ std::vector<double> DrawCorner(Random& draw, std::size_t parameters) {
 /// Poles and |S| of one loop; false when it is unstable.
 enum class Of { kFile, kCorner, kDrawn };
 
-bool JudgeLoop(const config::RigFile& rig, const law::LawConfig& law, double speed, Of of,
+bool JudgeLoop(const configuration::RigFile& rig, const law::LawConfig& law, double speed, Of of,
                GateResult& out) {
   const auto found = analysis::SensitivityPeaks(rig.plant, law, speed);
   ++out.loops;
@@ -63,7 +63,7 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
-void RunDrawn(const config::RigFile& rig, const law::LawConfig& law,
+void RunDrawn(const configuration::RigFile& rig, const law::LawConfig& law,
               const std::vector<uncertainty::Parameter>& parameters, const GateOptions& options,
               const Progress& progress, GateResult& out) {
   const std::size_t bearings = rig.numbers.bearings.size();
@@ -116,7 +116,7 @@ void RunDrawn(const config::RigFile& rig, const law::LawConfig& law,
 namespace {
 
 /// Poles of the loop with every law that a schedule may run, at the speed of that law.
-void JudgeRungs(const config::RigFile& rig, const law::LawConfig& law, double most_rad_per_s,
+void JudgeRungs(const configuration::RigFile& rig, const law::LawConfig& law, double most_rad_per_s,
                 GateResult& out) {
   const double last = law.schedule.back().speed_rad_per_s;
   for (std::size_t i = 0; i < law::kRungs; ++i) {
@@ -139,8 +139,8 @@ void JudgeRungs(const config::RigFile& rig, const law::LawConfig& law, double mo
 
 /// Where laws change places, the lower one goes on for a while above the exchange, while the other
 /// listens, and the upper one below it on the way down.
-void JudgeExchanges(const config::RigFile& rig, const law::LawConfig& law, double most_rad_per_s,
-                    GateResult& out) {
+void JudgeExchanges(const configuration::RigFile& rig, const law::LawConfig& law,
+                    double most_rad_per_s, GateResult& out) {
   const double listened = rig.plant.drive.max_acceleration_rad_per_s2 * law::kListenS;
   for (const law::Exchange& exchange : law::Exchanges(law)) {
     if (exchange.at_rad_per_s > most_rad_per_s) return;  // where the rig never gets
@@ -152,7 +152,7 @@ void JudgeExchanges(const config::RigFile& rig, const law::LawConfig& law, doubl
 }
 
 /// Through every speed with the law that changes on the way, and back.
-void RunUp(const config::RigFile& rig, const law::LawConfig& law, const GateOptions& options,
+void RunUp(const configuration::RigFile& rig, const law::LawConfig& law, const GateOptions& options,
            GateResult& out) {
   const double top = rig.numbers.max_speed_rad_per_s;
   if (!(top > 0.0) || !(rig.plant.drive.max_acceleration_rad_per_s2 > 0.0)) return;
@@ -165,7 +165,7 @@ void RunUp(const config::RigFile& rig, const law::LawConfig& law, const GateOpti
 
 }  // namespace
 
-MuPeaks MuPeakAt(const config::RigFile& rig, const law::LawConfig& law,
+MuPeaks MuPeakAt(const configuration::RigFile& rig, const law::LawConfig& law,
                  const std::vector<uncertainty::Parameter>& parameters,
                  const uncertainty::AnalysisWeights& weights, double speed) {
   constexpr int kPoints = 300;
@@ -228,7 +228,7 @@ std::vector<double> RunSpeeds(double rated_rad_per_s) {
   return out;
 }
 
-GateResult RunDrawnRigs(const config::RigFile& rig, const law::LawConfig& law,
+GateResult RunDrawnRigs(const configuration::RigFile& rig, const law::LawConfig& law,
                         const std::vector<uncertainty::Parameter>& parameters,
                         const GateOptions& options) {
   GateResult out;
@@ -238,7 +238,7 @@ GateResult RunDrawnRigs(const config::RigFile& rig, const law::LawConfig& law,
   return out;
 }
 
-GateResult Judge(const config::RigFile& rig, const law::LawConfig& law,
+GateResult Judge(const configuration::RigFile& rig, const law::LawConfig& law,
                  const std::vector<uncertainty::Parameter>& parameters, const GateOptions& options,
                  const Progress& progress) {
   GateResult out;

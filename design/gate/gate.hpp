@@ -67,13 +67,13 @@ struct GateResult {
   std::vector<DrawnSpeed> drawn;
   std::size_t rigs{};
   Peak drawn_sensitivity;  ///< of the drawn rigs, with `tolerances`
-  std::optional<config::RigFile> worst;
+  std::optional<configuration::RigFile> worst;
   std::size_t rungs{};               ///< laws of a schedule whose poles were judged
   std::size_t exchanges{};           ///< of laws that change places, both judged beyond it
   std::optional<RunFigures> run_up;  ///< of a schedule
 };
 
-[[nodiscard]] GateResult Judge(const config::RigFile& rig, const law::LawConfig& law,
+[[nodiscard]] GateResult Judge(const configuration::RigFile& rig, const law::LawConfig& law,
                                const std::vector<uncertainty::Parameter>& parameters,
                                const GateOptions& options,
                                const std::function<void(double, const std::string&)>& progress);
@@ -83,7 +83,7 @@ struct GateResult {
 [[nodiscard]] std::vector<double> RunSpeeds(double rated_rad_per_s);
 
 /// The runs alone: `drawn`, `rigs`, `worst`, and `reason` when a rig is lost.
-[[nodiscard]] GateResult RunDrawnRigs(const config::RigFile& rig, const law::LawConfig& law,
+[[nodiscard]] GateResult RunDrawnRigs(const configuration::RigFile& rig, const law::LawConfig& law,
                                       const std::vector<uncertainty::Parameter>& parameters,
                                       const GateOptions& options);
 
@@ -92,7 +92,7 @@ struct MuPeaks {
 };
 
 /// The peaks of mu at one speed, neighbours of each maximum bracketed.
-[[nodiscard]] MuPeaks MuPeakAt(const config::RigFile& rig, const law::LawConfig& law,
+[[nodiscard]] MuPeaks MuPeakAt(const configuration::RigFile& rig, const law::LawConfig& law,
                                const std::vector<uncertainty::Parameter>& parameters,
                                const uncertainty::AnalysisWeights& weights, double speed_rad_per_s);
 

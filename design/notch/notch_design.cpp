@@ -105,7 +105,7 @@ void RefuseUnheld(const plant::PlantConfig& rig, const law::LawConfig& law,
 
 }  // namespace
 
-BlockConfig WithInverse(const config::RigFile& file, const law::LawConfig& law,
+BlockConfig WithInverse(const configuration::RigFile& file, const law::LawConfig& law,
                         const NotchRequest& request) {
   const plant::PlantConfig& rig = file.plant;
   BlockConfig block = request.block;
@@ -226,7 +226,7 @@ double LargestOrbit(const Eigen::VectorXcd& position_m) {
 }
 
 /// Orbit and current that the rig file's unbalance leaves, once the block has adapted.
-void AddSize(const config::RigFile& rig, const analysis::SampledLoop& loop,
+void AddSize(const configuration::RigFile& rig, const analysis::SampledLoop& loop,
              const NotchRequest& request, SpeedFigures& at) {
   const BlockConfig& block = request.block;
   const double speed = at.speed_rad_per_s;
@@ -264,8 +264,9 @@ double MeasuredDecay(const analysis::SampledLoop& loop, const NotchRequest& requ
 
 }  // namespace
 
-NotchFigures JudgeNotch(const config::RigFile& rig, const std::vector<config::RigFile>& drawn,
-                        const law::LawConfig& law, const NotchRequest& request) {
+NotchFigures JudgeNotch(const configuration::RigFile& rig,
+                        const std::vector<configuration::RigFile>& drawn, const law::LawConfig& law,
+                        const NotchRequest& request) {
   synchronous::SynchronousConfig control;
   control.blocks.push_back(request.block);
   NotchFigures figures;

@@ -60,7 +60,7 @@ struct NotchRequest {
 };
 
 /// `request.block` with its table.
-[[nodiscard]] synchronous::BlockConfig WithInverse(const config::RigFile& rig,
+[[nodiscard]] synchronous::BlockConfig WithInverse(const configuration::RigFile& rig,
                                                    const law::LawConfig& law,
                                                    const NotchRequest& request);
 
@@ -92,8 +92,8 @@ struct NotchFigures {
 };
 
 /// Judges `request.block`, its table made, alone in the loop.
-[[nodiscard]] NotchFigures JudgeNotch(const config::RigFile& rig,
-                                      const std::vector<config::RigFile>& drawn,
+[[nodiscard]] NotchFigures JudgeNotch(const configuration::RigFile& rig,
+                                      const std::vector<configuration::RigFile>& drawn,
                                       const law::LawConfig& law, const NotchRequest& request);
 
 }  // namespace levitas::design

@@ -119,7 +119,7 @@ void AddChannel(const law::AxisLawConfig& config, double period_s,
 
 }  // namespace
 
-Coordinates TranslationAndTilt(const config::RigFile& rig) {
+Coordinates TranslationAndTilt(const configuration::RigFile& rig) {
   const auto& bearings = rig.plant.bearings;
   if (!rig.plant.shafts.empty() || bearings.size() != 2 || rig.numbers.axes() != 4)
     throw Problem(ExitStatus::kOther,

@@ -29,7 +29,7 @@ struct Coordinates {
   [[nodiscard]] bool empty() const noexcept { return measure.size() == 0; }
 };
 
-[[nodiscard]] Coordinates TranslationAndTilt(const config::RigFile& rig);
+[[nodiscard]] Coordinates TranslationAndTilt(const configuration::RigFile& rig);
 
 /// The same law between the axes, in blocks of poles in z: what the loop runs and a file holds.
 /// Throws std::invalid_argument where poles of one channel repeat and cannot be told apart.

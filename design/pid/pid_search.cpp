@@ -23,7 +23,7 @@ struct Candidate {
   double cost{1e9};
 };
 
-std::vector<PlantToHold> EveryPlant(const config::RigFile& rig,
+std::vector<PlantToHold> EveryPlant(const configuration::RigFile& rig,
                                     const std::vector<uncertainty::Parameter>& parameters,
                                     const PidSearchOptions& options) {
   constexpr int kSpeeds = 12;
@@ -133,7 +133,7 @@ namespace {
 /// One search: what is held grows round by round.
 class Rounds {
  public:
-  Rounds(const PidPoint* start, const config::RigFile& rig, const PidLimits& limits,
+  Rounds(const PidPoint* start, const configuration::RigFile& rig, const PidLimits& limits,
          const std::vector<uncertainty::Parameter>& parameters, const PidSearchOptions& options)
       : options_(options),
         near_(start != nullptr),
@@ -261,14 +261,14 @@ class Rounds {
 
 }  // namespace
 
-PidSearchResult SearchPid(const config::RigFile& rig, const PidLimits& limits,
+PidSearchResult SearchPid(const configuration::RigFile& rig, const PidLimits& limits,
                           const std::vector<uncertainty::Parameter>& parameters,
                           const PidSearchOptions& options,
                           const std::function<bool(double, const std::string&)>& seen) {
   return Rounds(nullptr, rig, limits, parameters, options).Run(seen);
 }
 
-PidSearchResult SearchPidFrom(const PidPoint& start, const config::RigFile& rig,
+PidSearchResult SearchPidFrom(const PidPoint& start, const configuration::RigFile& rig,
                               const PidLimits& limits,
                               const std::vector<uncertainty::Parameter>& parameters,
                               const PidSearchOptions& options,

@@ -57,13 +57,13 @@ struct PidSearchResult {
 
 /// `seen(share done, text)`: false ends the search with the best so far.
 [[nodiscard]] PidSearchResult SearchPid(
-    const config::RigFile& rig, const PidLimits& limits,
+    const configuration::RigFile& rig, const PidLimits& limits,
     const std::vector<uncertainty::Parameter>& parameters, const PidSearchOptions& options,
     const std::function<bool(double, const std::string&)>& seen);
 
 /// The same from a law that is near already, with its filters: no grid, small steps.
 [[nodiscard]] PidSearchResult SearchPidFrom(
-    const PidPoint& start, const config::RigFile& rig, const PidLimits& limits,
+    const PidPoint& start, const configuration::RigFile& rig, const PidLimits& limits,
     const std::vector<uncertainty::Parameter>& parameters, const PidSearchOptions& options,
     const std::function<bool(double, const std::string&)>& seen);
 

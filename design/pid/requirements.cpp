@@ -41,7 +41,7 @@ double RatioOf(Limit limit, double found, double allowed) {
 
 }  // namespace
 
-PidLimits UsualLimits(const config::RigFile& rig, double current_limit_a) {
+PidLimits UsualLimits(const configuration::RigFile& rig, double current_limit_a) {
   PidLimits out;
   out[Limit::kSensitivity] = 3.0;
   out[Limit::kCornerSensitivity] = 4.0;
@@ -68,7 +68,7 @@ PidLimits UsualLimits(const config::RigFile& rig, double current_limit_a) {
   return out;
 }
 
-PidJudge::PidJudge(const config::RigFile& rig, const PidLimits& limits, double third_n,
+PidJudge::PidJudge(const configuration::RigFile& rig, const PidLimits& limits, double third_n,
                    const Coordinates& coordinates)
     : limits_(limits), coordinates_(coordinates), unbalance_(rig, third_n, coordinates) {
   for (std::size_t axis = 0; axis < rig.numbers.axes(); ++axis)

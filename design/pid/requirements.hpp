@@ -62,7 +62,7 @@ struct PidLimits {
 /// |S| 3 (zone A), 4 at corners, |T| 3, singular value 4, damping 0.15 % (or 0.4 of the rig's
 /// own, where that is less), the rig's objectives, the law's current and a
 /// quarter of it for noise.
-[[nodiscard]] PidLimits UsualLimits(const config::RigFile& rig, double current_limit_a);
+[[nodiscard]] PidLimits UsualLimits(const configuration::RigFile& rig, double current_limit_a);
 
 struct Met {
   double found{}, ratio{}, hz{}, speed_rad_per_s{};
@@ -88,7 +88,7 @@ struct PlantToHold {
 class PidJudge {
  public:
   /// With coordinates a law has one entry per channel, and plants have the same coordinates.
-  PidJudge(const config::RigFile& rig, const PidLimits& limits, double third_n,
+  PidJudge(const configuration::RigFile& rig, const PidLimits& limits, double third_n,
            const Coordinates& coordinates = {});
 
   [[nodiscard]] PidFigures Of(const law::LawConfig& law,

@@ -119,7 +119,7 @@ plant::PlantModel ModelOf(const plant::PlantConfig& config, Known known) {
 
 }  // namespace
 
-SampledPlant::SampledPlant(const config::RigFile& rig, double speed_rad_per_s, Known known,
+SampledPlant::SampledPlant(const configuration::RigFile& rig, double speed_rad_per_s, Known known,
                            Coordinates coordinates)
     : coordinates_(std::move(coordinates)),
       period_s_(static_cast<double>(rig.plant.period_ns) * 1e-9),

@@ -46,7 +46,7 @@ enum class Known { kAll, kRigidBody };
 class SampledPlant {
  public:
   /// With coordinates P is M P R, of the channels; what is said of axes stays theirs.
-  SampledPlant(const config::RigFile& rig, double speed_rad_per_s, Known known = Known::kAll,
+  SampledPlant(const configuration::RigFile& rig, double speed_rad_per_s, Known known = Known::kAll,
                Coordinates coordinates = {});
 
   [[nodiscard]] AxisMatrix At(std::complex<double> z) const;

@@ -36,7 +36,7 @@ law::LawConfig TableOf(const std::vector<Entry>& entries, const law::LawConfig& 
 
 class TableSearch {
  public:
-  TableSearch(const config::RigFile& rig, const PidLimits& limits,
+  TableSearch(const configuration::RigFile& rig, const PidLimits& limits,
               const std::vector<uncertainty::Parameter>& parameters, const ScheduleOptions& options,
               const Seen& seen)
       : rig_(rig), limits_(limits), parameters_(parameters), options_(options), seen_(seen) {}
@@ -116,7 +116,7 @@ class TableSearch {
     }
   }
 
-  const config::RigFile& rig_;
+  const configuration::RigFile& rig_;
   const PidLimits& limits_;
   const std::vector<uncertainty::Parameter>& parameters_;
   const ScheduleOptions& options_;
@@ -128,7 +128,7 @@ class TableSearch {
 
 }  // namespace
 
-ScheduleResult SearchSchedule(const config::RigFile& rig, const PidLimits& limits,
+ScheduleResult SearchSchedule(const configuration::RigFile& rig, const PidLimits& limits,
                               const std::vector<uncertainty::Parameter>& parameters,
                               const ScheduleOptions& options, const Seen& seen) {
   return TableSearch(rig, limits, parameters, options, seen).Run();

@@ -33,7 +33,7 @@ struct ScheduleResult {
 };
 
 [[nodiscard]] ScheduleResult SearchSchedule(
-    const config::RigFile& rig, const PidLimits& limits,
+    const configuration::RigFile& rig, const PidLimits& limits,
     const std::vector<uncertainty::Parameter>& parameters, const ScheduleOptions& options,
     const std::function<bool(double, const std::string&)>& seen);
 

@@ -17,7 +17,7 @@ using Eigen::Index;
 
 }  // namespace
 
-UnbalanceResponse::UnbalanceResponse(const config::RigFile& rig, double third_n,
+UnbalanceResponse::UnbalanceResponse(const configuration::RigFile& rig, double third_n,
                                      Coordinates coordinates)
     : coordinates_(std::move(coordinates)) {
   const double rated = rig.numbers.max_speed_rad_per_s;

@@ -21,7 +21,8 @@ struct UnbalanceFigures {
 
 class UnbalanceResponse {
  public:
-  UnbalanceResponse(const config::RigFile& rig, double third_n, Coordinates coordinates = {});
+  UnbalanceResponse(const configuration::RigFile& rig, double third_n,
+                    Coordinates coordinates = {});
   [[nodiscard]] bool empty() const noexcept { return harmonics_.empty(); }
   /// Laws of the axes, or of the channels of the coordinates.
   [[nodiscard]] UnbalanceFigures Of(const std::vector<law::DiscreteLaw>& laws) const;

@@ -35,7 +35,8 @@ std::vector<double> GridHz(const uncertainty::AnalysisWeights& weights, int poin
 
 }  // namespace
 
-FigureMaker::FigureMaker(config::RigFile rig, const std::vector<uncertainty::Parameter>& parameters,
+FigureMaker::FigureMaker(configuration::RigFile rig,
+                         const std::vector<uncertainty::Parameter>& parameters,
                          FigureOptions options)
     : rig_(std::move(rig)), options_(std::move(options)) {
   for (const double w : options_.speeds_rad_per_s) {

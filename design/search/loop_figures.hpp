@@ -38,7 +38,7 @@ struct FigureOptions {
 
 class FigureMaker {
  public:
-  FigureMaker(config::RigFile rig, const std::vector<uncertainty::Parameter>& parameters,
+  FigureMaker(configuration::RigFile rig, const std::vector<uncertainty::Parameter>& parameters,
               FigureOptions options);
 
   [[nodiscard]] LoopFigures Of(const law::LawConfig& law) const;
@@ -58,7 +58,7 @@ class FigureMaker {
             LoopFigures& out) const;
   void AddHarmonics(const uncertainty::LawResponse& law, LoopFigures& out) const;
 
-  config::RigFile rig_;
+  configuration::RigFile rig_;
   FigureOptions options_;
   std::vector<Speed> speeds_;
   std::vector<Harmonic> harmonics_;  ///< a speed's stand side by side

@@ -49,7 +49,7 @@ double CostOf(const LoopFigures& f, const SearchGoals& goals) {
   return *std::max_element(ratios.begin(), ratios.end()) + 0.1 * sum / 4.0;
 }
 
-SearchResult SearchWeights(const config::RigFile& rig, const hinf::HinfWeights& start,
+SearchResult SearchWeights(const configuration::RigFile& rig, const hinf::HinfWeights& start,
                            const hinf::HinfDesignOptions& design, const FigureMaker& figures,
                            const SearchOptions& options,
                            const std::function<bool(std::size_t, double)>& seen) {

@@ -39,7 +39,8 @@ struct SearchResult {
 
 [[nodiscard]] double CostOf(const LoopFigures& figures, const SearchGoals& goals);
 
-[[nodiscard]] SearchResult SearchWeights(const config::RigFile& rig, const hinf::HinfWeights& start,
+[[nodiscard]] SearchResult SearchWeights(const configuration::RigFile& rig,
+                                         const hinf::HinfWeights& start,
                                          const hinf::HinfDesignOptions& design,
                                          const FigureMaker& figures, const SearchOptions& options,
                                          const std::function<bool(std::size_t, double)>& seen);

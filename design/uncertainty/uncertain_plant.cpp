@@ -73,8 +73,8 @@ Channels ChannelsOf(const plant::PlantModel& model, const std::vector<Parameter>
 
 }  // namespace
 
-UncertainPlant::UncertainPlant(const config::RigFile& rig, const std::vector<Parameter>& parameters,
-                               double speed_rad_per_s) {
+UncertainPlant::UncertainPlant(const configuration::RigFile& rig,
+                               const std::vector<Parameter>& parameters, double speed_rad_per_s) {
   const plant::PlantModel model(rig.plant);
   const plant::LinearModel linear = plant::Linearise(model, speed_rad_per_s);
   const auto channels = static_cast<Index>(model.channels());

@@ -30,7 +30,7 @@ struct PlantPoint {
 
 class UncertainPlant {
  public:
-  UncertainPlant(const config::RigFile& rig, const std::vector<Parameter>& parameters,
+  UncertainPlant(const configuration::RigFile& rig, const std::vector<Parameter>& parameters,
                  double speed_rad_per_s);
 
   [[nodiscard]] PlantPoint At(double hz) const;

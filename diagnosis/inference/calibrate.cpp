@@ -15,7 +15,8 @@ constexpr std::size_t kStartRows = 30'000;
 constexpr int kStartPasses = 5;
 constexpr double kHeld = 0.2;  ///< of its tolerance
 
-/// How a rig is built is held near its file; what state it is in is not.
+/// Parameters of construction (gains, delays, modes, mass) stay near the file; parameters of state
+/// (unbalance, offset, load) are free.
 std::vector<Term> Held(std::vector<Term> terms) {
   using effect::Id;
   constexpr std::array kState{Id::kUnbalance, Id::kStaticLoad, Id::kSensorOffset,
@@ -33,7 +34,7 @@ std::vector<double> FromFar(const RigView& rig, const Search& search,
                             const std::vector<Term>& terms, const std::vector<Record>& few,
                             const std::vector<Record>& records, const Gains& gains) {
   const Gains fast = search.DesignGains(few, kFast);
-  std::vector<double> start = search.Usual();
+  std::vector<double> start = search.HealthyParameters();
   const Refined coarse =
       Refiner(search, terms, few, fast, rig.axes).Approach(start, kWhiteningOrder, 3);
   const Refiner refiner(search, terms, records, gains, rig.axes);

@@ -15,10 +15,9 @@
 namespace levitas::diagnosis {
 namespace {
 
-bool IsUnexplained(const Judging& judging, const Residual& remainder, bool named,
-                   double explained) {
-  if (!(remainder.sigma > judging.unexplained_sigma)) return false;
-  const bool stands_out = remainder.sigma > judging.stands_out_sigma;
+bool IsUnexplained(const Judging& judging, const Residual& residual, bool named, double explained) {
+  if (!(residual.sigma > judging.unexplained_sigma)) return false;
+  const bool stands_out = residual.sigma > judging.stands_out_sigma;
   return !named || explained < (stands_out ? judging.nearly_all_share : judging.explained_share);
 }
 
@@ -64,9 +63,9 @@ void Describe(const std::vector<Term>& terms, const CauseSelection& found, const
 /// Causes that no term describes. They explain none of what the other causes do; the stronger one
 /// leads.
 void AddEvents(const RecordLandscape& landscape, const std::vector<Record>& all_records,
-               const Judging& judging, const Residual& remainder, CauseSelection& found) {
-  for (const Candidate& event : FindEvents(landscape.rig(), all_records, remainder)) {
-    if (event.effect == "sensor_noise" && remainder.sigma > judging.unexplained_sigma) continue;
+               const Judging& judging, const Residual& residual, CauseSelection& found) {
+  for (const Candidate& event : FindEvents(landscape.rig(), all_records, residual)) {
+    if (event.effect == "sensor_noise" && residual.sigma > judging.unexplained_sigma) continue;
     found.candidates.push_back(event);
     if (event.score < judging.decisive_nat) continue;
     Hypothesis cause;
@@ -127,25 +126,25 @@ SearchResult Conclude(const RecordLandscape& landscape, const std::vector<Record
   auto runs = std::make_shared<const std::vector<Trajectory>>(landscape.RunAt(found.theta));
   const double held = HeldGain(*found.calibrated_runs, *runs, landscape.view().whitener);
   if (!found.causes.empty() && found.doubt == Doubt::kNothing && held < -judging.harm_nat) {
-    // What does harm where it was not fitted is no cause.
+    // Causes that lower the likelihood of the validation data are dropped.
     found.causes.clear();
     found.theta = found.calibrated;
     runs = found.calibrated_runs;
   }
   answer.theta_extended = found.theta;
   answer.theta_calibrated = found.calibrated;
-  answer.remainder = AnalyseResidual(landscape.rig(), *runs);
+  answer.residual = AnalyseResidual(landscape.rig(), *runs);
   if (const std::string why = WhyNotJudged(landscape.rig(), *runs); !why.empty())
     throw BadInput(why);
   answer.explained =
-      Explained(AnalyseResidual(landscape.rig(), *found.calibrated_runs), answer.remainder);
+      Explained(AnalyseResidual(landscape.rig(), *found.calibrated_runs), answer.residual);
   const bool unexplained =
-      IsUnexplained(judging, answer.remainder, !found.causes.empty(), answer.explained);
+      IsUnexplained(judging, answer.residual, !found.causes.empty(), answer.explained);
   answer.spread = SpreadOf(landscape, found.causes);
   const Verdict verdict = VerdictOf(rules, unexplained, found);
   if (verdict == Verdict::kUnknown) found.causes.clear();
   const std::size_t named = found.causes.size();
-  AddEvents(landscape, all_records, judging, answer.remainder, found);
+  AddEvents(landscape, all_records, judging, answer.residual, found);
   const Fit fit = landscape.EvidenceGiven(found.causes).Solve();
   const Fit null = landscape.EvidenceGiven({}).Solve();
   answer.evidence = fit.log_evidence - null.log_evidence;
@@ -173,7 +172,7 @@ SearchResult Diagnose(const RigView& rig, const std::vector<Record>& records,
   const SelectionRules rules{settings.judging, effort, settings.most_causes};
   RecordLandscape landscape(rig, records, settings, effort, terms);
   CauseSelection found;
-  found.theta = landscape.search().Usual();
+  found.theta = landscape.search().HealthyParameters();
   Calibrate(landscape, records, effort.calibrations, found);
   FindCauses(landscape, rules, found);
   if (effort.first_cause_only) {

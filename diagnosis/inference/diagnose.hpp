@@ -80,7 +80,7 @@ struct SearchResult {
   std::vector<Estimate> calibration;       ///< of the nuisances
   std::vector<Candidate> candidates;       ///< best place of every effect, best first
   ObserverSpeed speed{kSlow};  ///< under which the model followed the records in the end
-  Residual remainder;
+  Residual residual;
   std::vector<double> theta_calibrated;  ///< nuisances alone
   std::vector<double> theta_extended;    ///< with the causes
   /// Posterior of theta_extended: terms x parameters, so that theta_extended + spread z with z

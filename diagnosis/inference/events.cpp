@@ -53,7 +53,7 @@ LostFrames CountFrames(const RigView& rig, const std::vector<Record>& records) {
 }
 
 std::vector<Candidate> FindEvents(const RigView& rig, const std::vector<Record>& records,
-                                  const Residual& remainder) {
+                                  const Residual& residual) {
   std::vector<Candidate> found;
   constexpr double kPerFrame = 10.0;  // [nat] a repetition by chance, and a prior of one in ten
   const LostFrames frames = CountFrames(rig, records);
@@ -65,10 +65,10 @@ std::vector<Candidate> FindEvents(const RigView& rig, const std::vector<Record>&
   }
   double evidence = 0.0;
   std::string where;
-  for (std::size_t a = 0; a < rig.axes && a < remainder.channels.size(); ++a) {
-    if (!(remainder.channels[a].noise_rms_m > 0.0)) continue;
+  for (std::size_t a = 0; a < rig.axes && a < residual.channels.size(); ++a) {
+    if (!(residual.channels[a].noise_rms_m > 0.0)) continue;
     const double off =
-        std::log(remainder.channels[a].noise_rms_m / rig.ReadingNoise(a)) / kNoiseTolerance;
+        std::log(residual.channels[a].noise_rms_m / rig.ReadingNoise(a)) / kNoiseTolerance;
     const double gain = 0.5 * off * off - std::log(10.0);
     if (gain < kDecisive) continue;
     evidence += gain;

@@ -26,6 +26,6 @@ struct LostFrames {
 /// decisive (kDecisive).
 [[nodiscard]] std::vector<Candidate> FindEvents(const RigView& rig,
                                                 const std::vector<Record>& records,
-                                                const Residual& remainder);
+                                                const Residual& residual);
 
 }  // namespace levitas::diagnosis

@@ -46,7 +46,7 @@ struct ModelRuns {
 };
 
 /// Which samples are measured on.
-enum class Part : std::uint8_t { kFitted, kKeptBack };
+enum class Part : std::uint8_t { kFitted, kValidation };
 
 /// `noise_rms_m` per axis.
 [[nodiscard]] Gain MeasureGain(const RigView& rig, const ModelRuns& runs,

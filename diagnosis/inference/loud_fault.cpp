@@ -18,7 +18,7 @@ bool IsLoud(const std::vector<Trajectory>& runs, std::size_t axes) {
 
 /// The best single cause from the rig file's numbers on, all innovations weighed alike.
 CauseSet FromFile(RecordLandscape& landscape, const SelectionRules& rules) {
-  landscape.LineariseUnfiltered(landscape.search().Usual());
+  landscape.LineariseUnfiltered(landscape.search().HealthyParameters());
   const std::vector<Candidate> screened = landscape.Screen({});
   CauseSet best;
   for (std::size_t i = 0; i < std::min(screened.size(), kMostTried); ++i) {

@@ -24,11 +24,11 @@ std::vector<Trajectory> Standing(const std::vector<Trajectory>& runs) {
 }
 
 /// Power over noise, line by line, of all channels together.
-std::vector<double> Ratio(const Residual& remainder) {
-  std::vector<double> sum(remainder.channels.front().ratio.size(), 0.0);
-  for (const ChannelRemainder& channel : remainder.channels) {
+std::vector<double> Ratio(const Residual& residual) {
+  std::vector<double> sum(residual.channels.front().ratio.size(), 0.0);
+  for (const ChannelResidual& channel : residual.channels) {
     for (std::size_t i = 0; i < std::min(sum.size(), channel.ratio.size()); ++i) {
-      sum[i] += channel.ratio[i] / static_cast<double>(remainder.channels.size());
+      sum[i] += channel.ratio[i] / static_cast<double>(residual.channels.size());
     }
   }
   return sum;
@@ -56,9 +56,9 @@ std::vector<ModeProbe> ProbeModes(const RigView& rig, const std::vector<Term>& t
                                   const std::vector<Hypothesis>& hypotheses,
                                   const std::vector<Trajectory>& runs) {
   std::vector<ModeProbe> probes;
-  const Residual remainder = AnalyseResidual(rig, Standing(runs));
-  if (remainder.channels.empty() || remainder.channels.front().ratio.size() < 3) return probes;
-  const std::vector<double> ratio = Ratio(remainder);
+  const Residual residual = AnalyseResidual(rig, Standing(runs));
+  if (residual.channels.empty() || residual.channels.front().ratio.size() < 3) return probes;
+  const std::vector<double> ratio = Ratio(residual);
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {
     const Hypothesis& hypothesis = hypotheses[h];
     if (hypothesis.effect != "modal_frequency" || hypothesis.terms.size() != 1) continue;
@@ -66,7 +66,7 @@ std::vector<ModeProbe> ProbeModes(const RigView& rig, const std::vector<Term>& t
     for (std::size_t mode = 2; mode < rig.modes; ++mode) {
       if (terms[term].location.mode != mode - 1) continue;
       const double mode_hz = rig.omega_rad_per_s[mode] / (2.0 * std::numbers::pi);
-      const double peak_hz = Peak(ratio, remainder.line_spacing_hz, mode_hz);
+      const double peak_hz = Peak(ratio, residual.line_spacing_hz, mode_hz);
       const double theta = peak_hz / mode_hz - 1.0;
       if (peak_hz > 0.0 && std::abs(theta) > kNear) probes.push_back({h, term, theta});
     }

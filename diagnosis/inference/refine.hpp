@@ -43,9 +43,9 @@ class Refiner {
           const Gains& gains, std::size_t axes)
       : search_(search), terms_(terms), records_(records), gains_(gains), axes_(axes) {}
 
-  /// `view` has everything linearised on the records of this refiner, or is close. The Jacobian is
-  /// not renewed, and a step that was refused not shortened, where even the linear prediction gains
-  /// less than `worth`, an evidence. A close Jacobian is never renewed.
+  /// `view` has everything linearised on the records of this refiner, or is close. Stops
+  /// early, without a new Jacobian or a shorter step, where even the linearised optimum stays below
+  /// the evidence `worth`. A close Jacobian is never renewed.
   [[nodiscard]] Refined Fit(const std::vector<Hypothesis>& causes, std::vector<double> start,
                             const View& view, int passes, double worth = kAnyEvidence) const;
   struct Along {

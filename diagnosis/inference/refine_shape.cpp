@@ -9,8 +9,8 @@ namespace {
 
 constexpr int kRounds = 6;
 constexpr double kLeast = 0.05;  ///< of a step; shorter ones are not tried
-/// [nat] A round that gains less is the last: where much is at stake, a support's frequency is
-/// known to a thousandth, and what is left of the coarse one hides all else.
+/// [nat] A round that gains less is the last. Not larger: of a strong effect (a support mode) a
+/// coarse shape leaves a residual that hides every other effect.
 constexpr double kWorth = 10.0;
 
 class Members {

@@ -142,13 +142,13 @@ bool StandsAlone(const std::vector<double>& ratio, double frequency_hz, double s
 }
 
 /// Spectrum of one channel against its own noise: the worst band, or a line that is worse.
-ChannelRemainder ExamineChannel(const std::vector<Piece>& pieces, std::size_t channel_index,
-                                analysis::Welch& welch, double rate_hz) {
+ChannelResidual ExamineChannel(const std::vector<Piece>& pieces, std::size_t channel_index,
+                               analysis::Welch& welch, double rate_hz) {
   for (const Piece& piece : pieces) {
     welch.Add(Signal(
         piece, [channel_index](const SamplePoint& m) { return m.innovation_m[channel_index]; }));
   }
-  ChannelRemainder channel;
+  ChannelResidual channel;
   const auto density = welch.Density();
   const double noise = NoiseDensity(density);
   channel.noise_rms_m = std::sqrt(noise * 0.5 * rate_hz);
@@ -185,7 +185,7 @@ int StrongestOrder(const std::vector<Piece>& pieces, std::size_t channel, double
   return strongest;
 }
 
-bool IsLineOfTheMains(const Residual& out, const ChannelRemainder& worst) {
+bool IsLineOfTheMains(const Residual& out, const ChannelResidual& worst) {
   for (const double mains : {50.0, 60.0, 100.0, 120.0, 150.0, 180.0}) {
     if (std::abs(out.frequency_hz - mains) < out.line_spacing_hz && worst.band_ratio > 2.0 &&
         StandsAlone(worst.ratio, mains, out.line_spacing_hz)) {
@@ -283,7 +283,7 @@ Residual AnalyseResidual(const RigView& rig, const std::vector<Trajectory>& runs
     if (out.channels[a].sigma > out.channels[out.worst_channel].sigma) out.worst_channel = a;
   }
   if (out.channels.empty() || pieces.empty()) return out;
-  const ChannelRemainder& worst = out.channels[out.worst_channel];
+  const ChannelResidual& worst = out.channels[out.worst_channel];
   out.sigma = worst.sigma;
   out.frequency_hz = worst.peak_hz;
   if (const int order = StrongestOrder(pieces, out.worst_channel, worst.noise_rms_m); order > 0) {

@@ -17,7 +17,7 @@
 
 namespace levitas::diagnosis {
 
-struct ChannelRemainder {
+struct ChannelResidual {
   double noise_rms_m{};       ///< from the upper third of the spectrum
   double sigma{};             ///< excess of the worst band, in standard deviations
   double band_ratio{};        ///< power there over the noise's
@@ -26,7 +26,7 @@ struct ChannelRemainder {
 };
 
 struct Residual {
-  std::vector<ChannelRemainder> channels;
+  std::vector<ChannelResidual> channels;
   double line_spacing_hz{};
   std::size_t worst_channel{};
   double sigma{};         ///< of the worst channel

@@ -150,7 +150,7 @@ void Search::Rename(const std::vector<std::size_t>& terms, const std::string& pl
   }
 }
 
-std::vector<double> Search::Usual() const {
+std::vector<double> Search::HealthyParameters() const {
   std::vector<double> theta;
   theta.reserve(terms_.size());
   for (const Term& term : terms_) theta.push_back(term.healthy_mean);

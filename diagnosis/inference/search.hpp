@@ -84,7 +84,7 @@ class Search {
   /// Moves a member of a family to another place.
   void Rename(const std::vector<std::size_t>& terms, const std::string& place);
   /// Parameters of the healthy rig: the start of every search.
-  [[nodiscard]] std::vector<double> Usual() const;
+  [[nodiscard]] std::vector<double> HealthyParameters() const;
   /// In units of Term::scale() from the healthy rig.
   [[nodiscard]] Eigen::VectorXd Scaled(const std::vector<double>& theta) const;
   [[nodiscard]] std::vector<std::size_t> Nuisances() const;

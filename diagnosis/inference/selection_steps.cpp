@@ -109,8 +109,8 @@ struct Merger {
 };
 
 /// The best effect that, together with `others`, explains as much as all causes.
-void TryBeside(const EvidenceLandscape& landscape, const SelectionRules& rules,
-               const std::vector<Hypothesis>& others, double worth, Merger& merger) {
+void TryEffectWith(const EvidenceLandscape& landscape, const SelectionRules& rules,
+                   const std::vector<Hypothesis>& others, double worth, Merger& merger) {
   const auto screened = landscape.Screen(others);
   const std::set<std::size_t> rest = Indices(landscape, others);
   for (std::size_t n = 0; n < std::min(screened.size(), rules.effort.shortlist); ++n) {
@@ -132,11 +132,11 @@ bool MergeOnce(EvidenceLandscape& landscape, const SelectionRules& rules, CauseS
   Merger merger;
   CauseSet& best = merger.best;
   // One for all first, then one for any two.
-  if (found.causes.size() > 2) TryBeside(landscape, rules, {}, worth, merger);
+  if (found.causes.size() > 2) TryEffectWith(landscape, rules, {}, worth, merger);
   for (std::size_t i = 0; i < found.causes.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       if (best.causes.size() == 1 && best.fit.evidence >= worth) break;
-      TryBeside(landscape, rules, Without(Without(found.causes, i), k), worth, merger);
+      TryEffectWith(landscape, rules, Without(Without(found.causes, i), k), worth, merger);
     }
   }
   if (!best.fit.ok || best.fit.evidence < worth) return false;

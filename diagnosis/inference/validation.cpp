@@ -152,7 +152,7 @@ void JudgeOnValidation(RecordLandscape& landscape, const std::vector<Record>& va
                        With(landscape, judge, found.causes, found.theta));
   }
   if (worth.value >= -deviations * worth.deviation) return;
-  found.doubt = Doubt::kHeldOutHarm;
+  found.doubt = Doubt::kValidationHarm;
   // A model that diverges on the validation data is refuted, too.
   found.probability = std::isfinite(worth.value)
                           ? 0.5 * std::erfc(-worth.value / (std::sqrt(2.0) * worth.deviation))

@@ -31,7 +31,7 @@ enum class Doubt {
   kNothing,
   kWeakEvidence,    ///< more likely than none, but not decisive
   kMovedNumber,     ///< a calibrated number is outside its tolerance by more than chance
-  kHeldOutHarm,     ///< decisive on the fitted records, refuted by the user's validation data
+  kValidationHarm,  ///< decisive on the fitted records, refuted by the user's validation data
   kResidualIsLeft,  ///< far ahead of all others, but a residual is left that it does not explain
 };
 

@@ -14,7 +14,7 @@ constexpr int kDivisor = 2;
 
 class Writer {
  public:
-  Writer(const config::RigFile& rig, double current_limit_a)
+  Writer(const configuration::RigFile& rig, double current_limit_a)
       : rig_(rig),
         amplitude_a_(std::min(0.1, 0.1 * current_limit_a)),
         clearance_um_(1e6 * rig.numbers.clearance_m),
@@ -99,13 +99,13 @@ class Writer {
         rate_rpm_per_s_, 10.0 + 3.0 * top_rpm_ / rate_rpm_per_s_);
   }
 
-  const config::RigFile& rig_;
+  const configuration::RigFile& rig_;
   double amplitude_a_, clearance_um_, top_rpm_, rate_rpm_per_s_;
 };
 
 }  // namespace
 
-std::vector<Experiment> Experiments(const config::RigFile& rig, double current_limit_a) {
+std::vector<Experiment> Experiments(const configuration::RigFile& rig, double current_limit_a) {
   return Writer(rig, current_limit_a).All();
 }
 

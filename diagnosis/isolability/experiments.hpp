@@ -22,7 +22,7 @@ struct Experiment {
   std::string scenario;  ///< text of a scenario file
 };
 
-[[nodiscard]] std::vector<Experiment> Experiments(const config::RigFile& rig,
+[[nodiscard]] std::vector<Experiment> Experiments(const configuration::RigFile& rig,
                                                   double current_limit_a);
 
 }  // namespace levitas::diagnosis

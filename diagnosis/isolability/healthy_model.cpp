@@ -52,9 +52,9 @@ std::vector<Trajectory> Difference(const std::vector<Trajectory>& first,
 
 }  // namespace
 
-HealthyModel::HealthyModel(const config::RigFile& rig, std::vector<Record> records, bool calibrate,
-                           const Judging& judging, std::optional<double> orbit_m)
-    : tolerances_(rig.tolerances.value_or(config::Tolerances{})),
+HealthyModel::HealthyModel(const configuration::RigFile& rig, std::vector<Record> records,
+                           bool calibrate, const Judging& judging, std::optional<double> orbit_m)
+    : tolerances_(rig.tolerances.value_or(configuration::Tolerances{})),
       plant_(rig.plant),
       rig_(rig.numbers, rig.plant),
       records_(Spans(Numbered(std::move(records)), kMostRows, rig_.period_s)),
@@ -70,7 +70,7 @@ HealthyModel::HealthyModel(const config::RigFile& rig, std::vector<Record> recor
   terms_ = TermsOf(rig_);
   search_ = std::make_unique<const Search>(rig_, terms_, "", judging.model_error_share);
   gains_ = search_->DesignGains(records_, kSlow);
-  std::vector<double> theta = search_->Usual();
+  std::vector<double> theta = search_->HealthyParameters();
   if (calibrate) {
     constexpr int kPasses = 5;
     const Refined fit =

@@ -34,7 +34,7 @@ class HealthyModel {
  public:
   /// `records` are levitated (LeaveOutContact).
   /// `orbit_m`: see terms.hpp; without it, the largest in the records.
-  HealthyModel(const config::RigFile& rig, std::vector<Record> records, bool calibrate,
+  HealthyModel(const configuration::RigFile& rig, std::vector<Record> records, bool calibrate,
                const Judging& judging, std::optional<double> orbit_m = std::nullopt);
   HealthyModel(const HealthyModel&) = delete;
   HealthyModel& operator=(const HealthyModel&) = delete;
@@ -69,7 +69,7 @@ class HealthyModel {
   [[nodiscard]] bool ShowsLine(const effect::EffectConfig& entry) const;
   [[nodiscard]] LinearProblem OfMains(const effect::EffectConfig& entry) const;
 
-  config::Tolerances tolerances_;
+  configuration::Tolerances tolerances_;
   plant::PlantConfig plant_;
   RigView rig_;
   std::vector<Record> records_;

@@ -10,8 +10,8 @@
 #include "controller/supervisor/supervisor.hpp"
 #include "plant_sim/plant/command_of.hpp"
 #include "plant_sim/plant/plant.hpp"
-#include "session/record_frame.hpp"
-#include "session/recording.hpp"
+#include "session/exchange/recording.hpp"
+#include "session/log/record_frame.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -33,7 +33,8 @@ analysis::RecordedRow RowOf(const cycle::CycleRecord& record, const session::Rec
 
 }  // namespace
 
-Record SimulatedRecord(const config::RigFile& rig, const config::ControllerFile& controller,
+Record SimulatedRecord(const configuration::RigFile& rig,
+                       const configuration::ControllerFile& controller,
                        const scenario::ScenarioConfig& scenario, std::uint64_t seed) {
   const double period_s = rig.numbers.period_s();
   plant::Plant plant(rig.plant, seed);

@@ -14,8 +14,8 @@ namespace levitas::diagnosis {
 
 inline constexpr double kLongestS = 300.0;
 
-[[nodiscard]] Record SimulatedRecord(const config::RigFile& rig,
-                                     const config::ControllerFile& controller,
+[[nodiscard]] Record SimulatedRecord(const configuration::RigFile& rig,
+                                     const configuration::ControllerFile& controller,
                                      const scenario::ScenarioConfig& scenario, std::uint64_t seed);
 
 }  // namespace levitas::diagnosis

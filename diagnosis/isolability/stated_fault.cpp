@@ -7,8 +7,8 @@
 
 #include "configuration/schema/unit.hpp"
 #include "plant_sim/effect/strength.hpp"
-#include "plant_sim/plant/effects/apply_effects.hpp"
-#include "plant_sim/plant/effects/clear_entry.hpp"
+#include "plant_sim/plant/applied_effects/apply_effects.hpp"
+#include "plant_sim/plant/applied_effects/clear_entry.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -37,8 +37,8 @@ std::string SizeOf(const effect::EffectConfig& entry, const plant::PlantParamete
     const effect::Parameter& p = parameters[i];
     if (p.scaling == effect::Scaling::kFixed) continue;
     double value = effect::AtStrength(p, entry.values[i], own[i], entry.strength);
-    for (const config::Unit& unit : config::AllUnits()) {
-      if (unit.suffix == p.file_suffix) value = std::stod(config::FromSi(value, unit));
+    for (const configuration::Unit& unit : configuration::AllUnits()) {
+      if (unit.suffix == p.file_suffix) value = std::stod(configuration::FromSi(value, unit));
     }
     return fmt::format("{} {:.3g}", effect::FileKey(p), value);
   }

@@ -75,8 +75,8 @@ bool Splits(const Prediction& before, const Prediction& after) noexcept {
   return before.isolation == Isolation::kTakenFor || after.ties.size() < before.ties.size();
 }
 
-std::vector<Tried> TryExperiments(const config::RigFile& rig,
-                                  const config::ControllerFile& controller,
+std::vector<Tried> TryExperiments(const configuration::RigFile& rig,
+                                  const configuration::ControllerFile& controller,
                                   const HealthyModel& model, const std::vector<Foretold>& all,
                                   const Judging& judging, const Progress& progress) {
   const std::vector<StatedFault> open = Open(all);
@@ -89,7 +89,8 @@ std::vector<Tried> TryExperiments(const config::RigFile& rig,
     done += 1.0;
     Tried& out = tried.emplace_back(Tried{experiment.what, experiment.scenario, "", {}});
     try {
-      const auto scenario = config::ParseScenario(experiment.scenario, "experiment", rig.numbers);
+      const auto scenario =
+          configuration::ParseScenario(experiment.scenario, "experiment", rig.numbers);
       Record record = SimulatedRecord(rig, controller, scenario, 2);
       LeaveOutContactAndWays(model.rig(), record);
       const HealthyModel further(rig, {std::move(record)}, false, judging, model.orbit_m());

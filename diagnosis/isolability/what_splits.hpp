@@ -35,8 +35,8 @@ struct Tried {
 [[nodiscard]] bool Splits(const Prediction& before, const Prediction& after) noexcept;
 
 /// For those of `all` that are not found alone.
-[[nodiscard]] std::vector<Tried> TryExperiments(const config::RigFile& rig,
-                                                const config::ControllerFile& controller,
+[[nodiscard]] std::vector<Tried> TryExperiments(const configuration::RigFile& rig,
+                                                const configuration::ControllerFile& controller,
                                                 const HealthyModel& model,
                                                 const std::vector<Foretold>& all,
                                                 const Judging& judging, const Progress& progress);

@@ -75,12 +75,12 @@ void AddCauses(const Found& found, diagnosis::DiagnosisReport& report) {
     candidate.evidence_nat = score.nat;
     candidate.refitted = score.refitted;
     candidate.reason = ReasonOf(score, report.ties);
-    if (std::isfinite(score.held_out_nat)) candidate.validation_nat = score.held_out_nat;
+    if (std::isfinite(score.validation_nat)) candidate.validation_nat = score.validation_nat;
   }
   report.evidence_nat = found.evidence;
 }
 
-diagnosis::DiagnosisReport BuildReport(const config::RigFile& rig, const NominalRig& nominal,
+diagnosis::DiagnosisReport BuildReport(const configuration::RigFile& rig, const NominalRig& nominal,
                                        const std::vector<Series>& data,
                                        const LevitatorResult& result) {
   diagnosis::DiagnosisReport report;

@@ -12,7 +12,7 @@
 namespace levitas::levitator {
 
 /// From `found`, `validation` and `fitted` of the result, for the records it was found in.
-[[nodiscard]] diagnosis::DiagnosisReport BuildReport(const config::RigFile& rig,
+[[nodiscard]] diagnosis::DiagnosisReport BuildReport(const configuration::RigFile& rig,
                                                      const NominalRig& nominal,
                                                      const std::vector<Series>& data,
                                                      const LevitatorResult& result);

@@ -90,8 +90,9 @@ std::string Comments(const Found& found) {
 }
 
 /// The rig file with all values of the table, which hold the effects of the file as well.
-std::string WithValues(const config::RigFile& file, const Theta& t, const std::string& comments) {
-  config::RigFile extended = file;
+std::string WithValues(const configuration::RigFile& file, const Theta& t,
+                       const std::string& comments) {
+  configuration::RigFile extended = file;
   extended.plant.effects.clear();  // the values hold them
   plant::BearingConfig& bearing = extended.plant.bearings.at(0);
   extended.plant.delay_samples += t[kDelay];
@@ -112,7 +113,8 @@ std::string WithValues(const config::RigFile& file, const Theta& t, const std::s
 
 }  // namespace
 
-std::string ExtendedRig(const config::RigFile& file, const Theta& origin, const Found& found) {
+std::string ExtendedRig(const configuration::RigFile& file, const Theta& origin,
+                        const Found& found) {
   Theta t = ComposedWith(OriginOf(file), Zeros(1));
   for (const std::size_t c : found.causes) {
     for (const std::size_t i : Causes()[c].moves) {
@@ -122,7 +124,8 @@ std::string ExtendedRig(const config::RigFile& file, const Theta& origin, const 
   return WithValues(file, t, Comments(found));
 }
 
-std::string CalibratedRig(const config::RigFile& file, const Theta& origin, const Found& found) {
+std::string CalibratedRig(const configuration::RigFile& file, const Theta& origin,
+                          const Found& found) {
   // A record that was not seen has what the others have on average.
   Theta t = ComposedWith(origin, SharedPart(found.extended.theta, 1));
   t[kSensorOffset] += t[Own(0, kOwnOffset)];

@@ -24,7 +24,7 @@ std::vector<diagnosis::Record> Load(const std::vector<std::string>& paths,
 }
 
 std::vector<Series> SeriesOf(const std::vector<diagnosis::Record>& records,
-                             const config::RigFile& rig) {
+                             const configuration::RigFile& rig) {
   std::vector<Series> out;
   out.reserve(records.size());
   for (const auto& record : records) out.push_back(MakeSeries(record.name, rig, record.rows));
@@ -115,15 +115,15 @@ void LearnFromHealthy(const std::vector<Series>& healthy, const SearchSettings& 
 
 }  // namespace
 
-LevitatorResult Diagnose(const config::RigFile& rig, const std::vector<Series>& given,
-                         const std::vector<Series>& given_held_out,
+LevitatorResult Diagnose(const configuration::RigFile& rig, const std::vector<Series>& given,
+                         const std::vector<Series>& given_validation,
                          const diagnosis::Settings& settings, const std::vector<Series>& healthy) {
   NominalRig nominal = NominalOf(rig);
   SearchSettings search;
   search.progress = settings.progress;
   if (!healthy.empty()) LearnFromHealthy(healthy, search, nominal);
   std::vector<Series> data = given;
-  std::vector<Series> validation = given_held_out;
+  std::vector<Series> validation = given_validation;
   if (data.size() == 1 && validation.empty()) {
     const Series whole = data.front();
     const double seconds = whole.time_s.back() - whole.time_s.front();
@@ -137,8 +137,8 @@ LevitatorResult Diagnose(const config::RigFile& rig, const std::vector<Series>& 
     answer.found = Search(misfit, nullptr, search);
     answer.validation = InTurn(nominal, data, stretches, answer.found);
   } else {
-    const Misfit aside(nominal, validation);
-    answer.found = Search(misfit, &aside, search);
+    const Misfit on_validation(nominal, validation);
+    answer.found = Search(misfit, &on_validation, search);
     answer.validation = JudgeAll(nominal, validation, answer.found);
   }
   answer.fitted = JudgeAll(nominal, data, answer.found);

@@ -36,7 +36,7 @@ double ToleranceOf(std::size_t index) {
 double WideOf(std::size_t index) { return IsOwn(index) ? ToleranceOf(index) : Table()[index].wide; }
 
 double LeastOf(std::size_t index, const Theta& origin) {
-  return IsOwn(index) ? -0.5 : LeastBeside(index, origin[index]);
+  return IsOwn(index) ? -0.5 : LowerBound(index, origin[index]);
 }
 
 Raw Misfit::RawOf(const Theta& theta, std::size_t record) const {

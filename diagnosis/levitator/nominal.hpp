@@ -19,7 +19,7 @@ struct NominalRig {
   Theta origin = Zeros(0);  ///< what is known to differ from all of these
 };
 
-[[nodiscard]] inline NominalRig NominalOf(const config::RigFile& file) {
+[[nodiscard]] inline NominalRig NominalOf(const configuration::RigFile& file) {
   const plant::PlantConfig& rig = file.plant;
   const plant::BearingConfig& bearing = rig.bearings.at(0);
   const plant::VoltageDrive& coil = bearing.amplifier.voltage.value();

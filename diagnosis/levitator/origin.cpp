@@ -24,7 +24,7 @@ bool IsRatio(std::size_t i) {
 
 double LagOf(double bandwidth_hz) { return 1.0 / (2.0 * std::numbers::pi * bandwidth_hz); }
 
-Theta Of(const effect::EffectConfig& entry, const config::RigFile& file) {
+Theta Of(const effect::EffectConfig& entry, const configuration::RigFile& file) {
   const auto& v = entry.values;
   Theta t = Zeros(0);
   switch (entry.id) {
@@ -73,7 +73,7 @@ Theta Of(const effect::EffectConfig& entry, const config::RigFile& file) {
 
 }  // namespace
 
-Theta EffectsOf(const config::RigFile& file) {
+Theta EffectsOf(const configuration::RigFile& file) {
   if (!plant::HasPlainSensors(file.plant)) {
     throw BadInput(
         fmt::format("rig {}: a diagnosis {}", file.numbers.name, plant::kPlainSensorsOnly));
@@ -91,7 +91,7 @@ Theta EffectsOf(const config::RigFile& file) {
   return all;
 }
 
-Theta OriginOf(const config::RigFile& file) {
+Theta OriginOf(const configuration::RigFile& file) {
   Theta t = EffectsOf(file);
   if (const auto& coil = file.plant.bearings.at(0).amplifier.voltage) {
     t[kDeadBand] = coil->dead_band_a;
@@ -108,7 +108,7 @@ double ComposedWith(std::size_t parameter, double origin, double theta) {
   return IsRatio(parameter) ? (1.0 + origin) * (1.0 + theta) - 1.0 : origin + theta;
 }
 
-double LeastBeside(std::size_t parameter, double origin) {
+double LowerBound(std::size_t parameter, double origin) {
   const double least = Table()[parameter].least;
   return IsRatio(parameter) ? least : least - origin;
 }

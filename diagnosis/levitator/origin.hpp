@@ -13,14 +13,14 @@
 namespace levitas::levitator {
 
 /// The effects of a rig file, in the table's numbers.
-[[nodiscard]] Theta EffectsOf(const config::RigFile& file);
-/// What a rig file says in the table's own numbers: its effects, and what of its coils' law is not
-/// there unless it says so.
-[[nodiscard]] Theta OriginOf(const config::RigFile& file);
+[[nodiscard]] Theta EffectsOf(const configuration::RigFile& file);
+/// The rig file as values of the table: its effects, and terms of its coils that are zero unless
+/// the file sets them.
+[[nodiscard]] Theta OriginOf(const configuration::RigFile& file);
 /// One number of the table.
 [[nodiscard]] double ComposedWith(std::size_t parameter, double origin, double theta);
 /// Lower bound relative to the origin: an effect already present may shrink to zero.
-[[nodiscard]] double LeastBeside(std::size_t parameter, double origin);
+[[nodiscard]] double LowerBound(std::size_t parameter, double origin);
 /// `theta` composed with an origin; parameters of single records stay as they are.
 [[nodiscard]] Theta ComposedWith(const Theta& origin, Theta theta);
 

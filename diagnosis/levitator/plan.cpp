@@ -31,7 +31,8 @@ constexpr const char* kProfileWords =
     "the ball led over its stroke with a test signal on the current: a profile lets the coil's lag "
     "change with the gap, an inductance is larger at every gap alike";
 constexpr const char* kIronWords =
-    "the ball led over its stroke and shaken: iron goes by the current, an inductance by the gap";
+    "the ball led over its stroke and shaken: saturation depends on the current, an inductance on "
+    "the air gap";
 constexpr const char* kLoadWords =
     "the ball shaken: a load adds the same to every force, a mass or a force constant scales them "
     "all";
@@ -39,12 +40,14 @@ constexpr const char* kWeighWords =
     "the ball weighed: mass and force constant make the same motion of the same current, whatever "
     "is recorded";
 constexpr const char* kGapWords =
-    "the ball led over its stroke: what goes by the place shows by how it changes with it";
+    "the ball led over its stroke: effects that depend on the position then differ from those that "
+    "do not";
 constexpr const char* kPlaceWords =
     "the ball laid against a stop of known place: under this law of force an offset of the sensor "
     "is a force constant";
 constexpr const char* kAmmeterWords =
-    "an ammeter in the lead of the coil: a probe's gain is in no record that it made itself";
+    "an ammeter in the lead of the coil: the gain of a current probe cannot be identified from its "
+    "own readings";
 constexpr const char* kDriveWords =
     "the ball led over its stroke, so that the duty runs from little to much: a dead band takes "
     "the same of each, a curved drive and a supply in proportion";
@@ -124,7 +127,7 @@ Ways WaysOf(const diagnosis::DiagnosisReport& report) {
 std::vector<std::string> Separations(const diagnosis::DiagnosisReport& report) {
   std::vector<std::string> out;
   if (Nameless(report)) {
-    out.emplace_back(std::string("to learn where the remainder belongs: ") + kAllWords);
+    out.emplace_back(std::string("to learn where the residual belongs: ") + kAllWords);
   }
   for (const diagnosis::ReportTie& tie : report.ties) {
     // Told once of all that the same does for.
@@ -151,7 +154,8 @@ std::vector<std::string> Separations(const diagnosis::DiagnosisReport& report) {
   return out;
 }
 
-std::string PlanScenario(const config::RigFile& rig, const diagnosis::DiagnosisReport& report) {
+std::string PlanScenario(const configuration::RigFile& rig,
+                         const diagnosis::DiagnosisReport& report) {
   const Ways ways = WaysOf(report);
   if (!AnyRecord(ways)) return {};
   const plant::BearingConfig& bearing = rig.plant.bearings.at(0);

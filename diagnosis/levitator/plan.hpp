@@ -6,7 +6,7 @@
 //            by the gap parts from what does not, and the duty runs from little to much; the ball
 //            shaken faster and faster: a load that only adds parts from what scales a force; a test
 //            signal of a bit per period: delays and lags part from each other. As much of it as the
-//            causes need, all of it when the remainder has no name.
+//            causes need, all of it when the residual has no name.
 // Not in it  pairs that no record of the rig separates: a mass and a force constant (weigh the
 //            ball), the gain of a probe and its current (an ammeter). The text says so.
 // Size       leading takes two fifths of the touchdown clearance, shaking a seventh; the test
@@ -26,7 +26,7 @@ namespace levitas::levitator {
 [[nodiscard]] std::vector<std::string> Separations(const diagnosis::DiagnosisReport& report);
 
 /// Empty when no scenario would help.
-[[nodiscard]] std::string PlanScenario(const config::RigFile& rig,
+[[nodiscard]] std::string PlanScenario(const configuration::RigFile& rig,
                                        const diagnosis::DiagnosisReport& report);
 
 }  // namespace levitas::levitator

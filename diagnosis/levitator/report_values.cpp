@@ -24,7 +24,7 @@ FileKey Scaled(std::string key, double by) {
   return {std::move(key), [by](double t) { return by * t; }};
 }
 
-FileKey KeyOf(const config::RigFile& rig, std::size_t i) {
+FileKey KeyOf(const configuration::RigFile& rig, std::size_t i) {
   const Row& row = Table()[i];
   switch (i) {
     case kDelay:
@@ -56,7 +56,7 @@ FileKey KeyOf(const config::RigFile& rig, std::size_t i) {
 }
 
 /// The same for a parameter that was fitted relative to an origin.
-FileKey KeyBeside(const config::RigFile& rig, const Theta& origin, std::size_t i) {
+FileKey KeyBeside(const configuration::RigFile& rig, const Theta& origin, std::size_t i) {
   FileKey whole = KeyOf(rig, i);
   return {whole.key, [value = whole.value, i, from = origin[i]](double t) {
             return value(ComposedWith(i, from, t));
@@ -68,7 +68,7 @@ std::string UnitOf(const FileKey& file_key, const Row& row) {
   return symbol.empty() ? std::string(row.unit) : symbol;
 }
 
-diagnosis::NamedParameter ParameterOf(const config::RigFile& rig, const Theta& origin,
+diagnosis::NamedParameter ParameterOf(const configuration::RigFile& rig, const Theta& origin,
                                       std::size_t i, const Fitted& fit) {
   const Row& row = Table()[i];
   const FileKey file_key = KeyBeside(rig, origin, i);
@@ -88,7 +88,7 @@ diagnosis::NamedParameter ParameterOf(const config::RigFile& rig, const Theta& o
   return p;
 }
 
-diagnosis::CalibratedValue CalibratedOf(const config::RigFile& rig, const Theta& origin,
+diagnosis::CalibratedValue CalibratedOf(const configuration::RigFile& rig, const Theta& origin,
                                         std::size_t i, const Fitted& fit) {
   const Row& row = Table()[i];
   const FileKey file_key = KeyBeside(rig, origin, i);
@@ -111,7 +111,7 @@ diagnosis::CalibratedValue CalibratedOf(const config::RigFile& rig, const Theta&
 
 }  // namespace
 
-std::vector<diagnosis::NamedParameter> ReportParameters(const config::RigFile& rig,
+std::vector<diagnosis::NamedParameter> ReportParameters(const configuration::RigFile& rig,
                                                         const Theta& origin, const Found& found) {
   std::vector<diagnosis::NamedParameter> parameters;
   for (const std::size_t c : found.causes) {
@@ -122,7 +122,7 @@ std::vector<diagnosis::NamedParameter> ReportParameters(const config::RigFile& r
   return parameters;
 }
 
-std::vector<diagnosis::CalibratedValue> ReportCalibration(const config::RigFile& rig,
+std::vector<diagnosis::CalibratedValue> ReportCalibration(const configuration::RigFile& rig,
                                                           const Theta& origin, const Found& found) {
   std::vector<bool> named(kParameters, false);
   for (const std::size_t c : found.causes) {

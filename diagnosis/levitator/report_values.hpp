@@ -15,12 +15,10 @@
 namespace levitas::levitator {
 
 /// Of the causes, in the order of selection.
-[[nodiscard]] std::vector<diagnosis::NamedParameter> ReportParameters(const config::RigFile& rig,
-                                                                      const Theta& origin,
-                                                                      const Found& found);
+[[nodiscard]] std::vector<diagnosis::NamedParameter> ReportParameters(
+    const configuration::RigFile& rig, const Theta& origin, const Found& found);
 /// Of all parameters with a tolerance that are no cause; furthest out of the tolerance first.
-[[nodiscard]] std::vector<diagnosis::CalibratedValue> ReportCalibration(const config::RigFile& rig,
-                                                                        const Theta& origin,
-                                                                        const Found& found);
+[[nodiscard]] std::vector<diagnosis::CalibratedValue> ReportCalibration(
+    const configuration::RigFile& rig, const Theta& origin, const Found& found);
 
 }  // namespace levitas::levitator

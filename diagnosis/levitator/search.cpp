@@ -119,8 +119,8 @@ class ForwardSelection {
   double explained_{};
 };
 
-double HeldOut(const Misfit* validation, const Filters& filters, const Theta& with,
-               const Theta& without) {
+double ValidationEvidence(const Misfit* validation, const Filters& filters, const Theta& with,
+                          const Theta& without) {
   if (validation == nullptr) return std::numeric_limits<double>::quiet_NaN();
   const std::size_t records = validation->series().size();
   return 0.5 * (validation->SquaredSum(SharedPart(without, records), filters) -
@@ -142,45 +142,55 @@ void KeepNearest(std::vector<Score>& scores, const Score& score) {
 }
 
 /// What others would add in the place of a cause that adds `nat` to `rest`.
-void RankInPlace(const ForwardSelection& hunt, const Misfit* validation, const CauseSet& rest,
+void RankInPlace(const ForwardSelection& selection, const Misfit* validation, const CauseSet& rest,
                  const Fitted& base, std::size_t of, double nat, std::vector<Score>& others) {
   constexpr std::size_t kNearest = 4;
-  const Fitter& fitter = hunt.fitter();
-  const std::vector<double> gain = fitter.Screen(rest, base, hunt.filters());
+  const Fitter& fitter = selection.fitter();
+  const std::vector<double> gain = fitter.Screen(rest, base, selection.filters());
   for (std::size_t c = 0; c < gain.size(); ++c) {
-    if (SameEffect(hunt.set(), c)) continue;
+    if (SameEffect(selection.set(), c)) continue;
     KeepNearest(others, {c, gain[c], std::nan(""), nat - gain[c], false, false, of});
   }
-  std::vector<std::size_t> near = Nearest(gain, hunt.set(), kNearest);
+  std::vector<std::size_t> near = Nearest(gain, selection.set(), kNearest);
   for (std::size_t c = 0; c < gain.size() && of < gain.size(); ++c) {
     const bool tried = std::find(near.begin(), near.end(), c) != near.end();
-    if (!tried && !SameEffect(hunt.set(), c) && Alike(Causes()[of].effect, Causes()[c].effect)) {
+    if (!tried && !SameEffect(selection.set(), c) &&
+        Alike(Causes()[of].effect, Causes()[c].effect)) {
       near.push_back(c);
     }
   }
   for (const std::size_t c : near) {
     if (gain[c] < 0.0) continue;
-    // From the tolerances of the whole answer: those of the rest alone stand at their bounds.
-    const Fitted fitted = fitter.Fit(With(rest, c), hunt.now().theta, hunt.filters(), kSteps);
+    // Starts from the nuisances fitted with all causes; without this cause they are driven to their
+    // bounds.
+    const Fitted fitted =
+        fitter.Fit(With(rest, c), selection.now().theta, selection.filters(), kSteps);
     const double gained = fitted.evidence - base.evidence;
-    KeepNearest(others, {c, gained, HeldOut(validation, hunt.filters(), fitted.theta, base.theta),
-                         nat - gained, false, true, of});
+    KeepNearest(
+        others,
+        {c, gained, ValidationEvidence(validation, selection.filters(), fitted.theta, base.theta),
+         nat - gained, false, true, of});
   }
 }
 
 /// What each named cause adds to the others, and what all others would add in its place.
-std::vector<Score> Rank(const ForwardSelection& hunt, const Misfit* validation, CauseSet& order) {
+std::vector<Score> Rank(const ForwardSelection& selection, const Misfit* validation,
+                        CauseSet& order) {
   const std::size_t none = Causes().size();
   std::vector<Score> named;
   std::vector<Score> others;
-  if (hunt.set().empty()) RankInPlace(hunt, validation, {}, hunt.now(), none, 0.0, others);
-  for (const std::size_t c : hunt.set()) {
-    const CauseSet rest = Without(hunt.set(), c);
-    const Fitted base = hunt.fitter().Fit(rest, hunt.now().theta, hunt.filters(), kSteps);
-    const double nat = hunt.now().evidence - base.evidence;
-    named.push_back({c, nat, HeldOut(validation, hunt.filters(), hunt.now().theta, base.theta), 0.0,
-                     true, true, none});
-    RankInPlace(hunt, validation, rest, base, c, nat, others);
+  if (selection.set().empty())
+    RankInPlace(selection, validation, {}, selection.now(), none, 0.0, others);
+  for (const std::size_t c : selection.set()) {
+    const CauseSet rest = Without(selection.set(), c);
+    const Fitted base =
+        selection.fitter().Fit(rest, selection.now().theta, selection.filters(), kSteps);
+    const double nat = selection.now().evidence - base.evidence;
+    named.push_back(
+        {c, nat,
+         ValidationEvidence(validation, selection.filters(), selection.now().theta, base.theta),
+         0.0, true, true, none});
+    RankInPlace(selection, validation, rest, base, c, nat, others);
   }
   const auto higher = [](const Score& a, const Score& b) { return a.nat > b.nat; };
   std::sort(named.begin(), named.end(), higher);
@@ -206,17 +216,18 @@ Theta SharedPart(const Theta& theta, std::size_t records) {
 }
 
 Found Search(const Misfit& data, const Misfit* validation, const SearchSettings& settings) {
-  ForwardSelection hunt(data, settings);
+  ForwardSelection selection(data, settings);
   if (settings.progress) settings.progress(0.02, "calibrating");
-  hunt.Calibrate();
+  selection.Calibrate();
   Found found;
-  found.calibrated = hunt.now();
-  while (hunt.set().size() < settings.most_causes && hunt.Forward()) hunt.Backward();
+  found.calibrated = selection.now();
+  while (selection.set().size() < settings.most_causes && selection.Forward()) selection.Backward();
   if (settings.progress) settings.progress(0.75, "ranking");
-  found.scores = Rank(hunt, validation, found.causes);
-  found.extended = hunt.now();
-  found.filters = hunt.filters();
-  const Fitted bare = hunt.fitter().Fit({}, found.calibrated.theta, hunt.filters(), kScreenSteps);
+  found.scores = Rank(selection, validation, found.causes);
+  found.extended = selection.now();
+  found.filters = selection.filters();
+  const Fitted bare =
+      selection.fitter().Fit({}, found.calibrated.theta, selection.filters(), kScreenSteps);
   found.evidence = found.extended.evidence - bare.evidence;
   if (settings.progress) settings.progress(1.0, "done");
   return found;

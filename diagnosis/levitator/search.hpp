@@ -7,7 +7,7 @@
 //            re-estimated after every acceptance.
 // Score      nat that a cause adds to all others; of one that was not named, what it would add in
 //            place of the named one it does most for.
-// Held out   the same gain in likelihood on records that were not fitted, where there are any.
+// Validation the same gain in likelihood on records that were not fitted, where there are any.
 // Thread     blocks the caller, two threads inside.
 
 #include <functional>
@@ -26,8 +26,8 @@ inline constexpr double kFormOfTie = 0.005;
 struct Score {
   std::size_t cause{};  ///< index into Causes()
   double nat{};
-  double held_out_nat{};  ///< NaN where nothing was held out
-  double behind_nat{};    ///< of one not named: behind the cause in whose place it stands
+  double validation_nat{};  ///< NaN where there is no validation data
+  double behind_nat{};      ///< of one not named: behind the cause in whose place it stands
   bool named{};
   bool refitted{};
   std::size_t instead_of{};  ///< of one not named: the named one; Causes().size() if none

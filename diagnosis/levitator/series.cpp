@@ -69,7 +69,7 @@ bool IsLevitator(const plant::PlantConfig& rig) {
          rig.bearings[0].magnet.exponential.has_value();
 }
 
-Series MakeSeries(const std::string& name, const config::RigFile& rig,
+Series MakeSeries(const std::string& name, const configuration::RigFile& rig,
                   const std::vector<analysis::RecordedRow>& rows) {
   const double period_s = rig.numbers.period_s();
   Series series;

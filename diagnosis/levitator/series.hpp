@@ -33,7 +33,7 @@ struct Series {
 /// One axis, two coils on a voltage, forces that fall exponentially with the gap.
 [[nodiscard]] bool IsLevitator(const plant::PlantConfig& rig);
 
-[[nodiscard]] Series MakeSeries(const std::string& name, const config::RigFile& rig,
+[[nodiscard]] Series MakeSeries(const std::string& name, const configuration::RigFile& rig,
                                 const std::vector<analysis::RecordedRow>& rows);
 
 /// A stretch of a record, its first half second to settle in; `phase` 0 to 1 says where it lies.

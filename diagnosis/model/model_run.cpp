@@ -239,7 +239,7 @@ class Runner {
 };
 
 /// Every sixth stretch; another one in every record.
-bool KeptBack(std::uint64_t cycle, std::uint32_t record, double period_s) {
+bool IsValidation(std::uint64_t cycle, std::uint32_t record, double period_s) {
   constexpr double kStretch = 0.05;  // [s]
   constexpr std::uint64_t kEvery = 6;
   const auto rows = static_cast<std::uint64_t>(std::llround(kStretch / period_s));
@@ -271,7 +271,8 @@ Trajectory RunModel(const RigView& rig, const Record& record, const ObserverGain
     runner.Step(row, arrived, moment);
     moment.arrived = arrived;
     moment.settled = since_start++ >= settling_rows;
-    const bool held = record.keeps_validation && KeptBack(row.cycle, record.number, rig.period_s);
+    const bool held =
+        record.keeps_validation && IsValidation(row.cycle, record.number, rig.period_s);
     moment.held = moment.settled && arrived && held;
     moment.counts = moment.settled && arrived && !held;
   };

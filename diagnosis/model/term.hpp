@@ -9,7 +9,7 @@
 //            sensitivities follow from one linear propagation (sensitivity.hpp). It is written
 //            independently of plant_sim/effect, so that neither can hide an error of the other.
 // Stateful   terms with memory (eddy currents, hysteresis, supports) keep it in the closure; a copy
-//            of the term copies the memory. Reset() starts anew.
+//            of the term copies the memory, so that a run starts from a copy of the fresh term.
 // Thread     one copy per thread.
 
 #include <array>

@@ -9,11 +9,11 @@
 
 #include "analysis/records/recorded_rows.hpp"
 #include "common/problem.hpp"
-#include "session/recording.hpp"
+#include "session/exchange/recording.hpp"
 
 namespace levitas::diagnosis {
 
-Record LoadRecord(const std::string& path, const config::RigFile& rig) {
+Record LoadRecord(const std::string& path, const configuration::RigFile& rig) {
   Record record;
   record.name = std::filesystem::path(path).filename().string();
   session::Recording recording = session::LoadRecording(path, rig);

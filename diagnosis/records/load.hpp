@@ -1,5 +1,5 @@
 #pragma once
-// A recorded run of any format (session/recording.hpp) as the rows of a diagnosis.
+// A recorded run of any format (session/exchange/recording.hpp) as the rows of a diagnosis.
 //
 // Currents   are the commanded ones.
 // Failure    BadInput with file and line; for records of another rig or without flight.
@@ -15,7 +15,7 @@ namespace levitas::diagnosis {
 
 inline constexpr double kShortest = 0.5;  ///< [s] of free flight: a model settles for 0.3
 
-[[nodiscard]] Record LoadRecord(const std::string& path, const config::RigFile& rig);
+[[nodiscard]] Record LoadRecord(const std::string& path, const configuration::RigFile& rig);
 
 /// Largest distance of the rotor from the centre in any record [m], at the sensors.
 [[nodiscard]] double LargestOrbit(const std::vector<Record>& records, std::size_t axes);

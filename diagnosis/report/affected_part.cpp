@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "diagnosis/report/diagnose_files.hpp"
+#include "diagnosis/diagnose/diagnose_files.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
@@ -28,14 +28,14 @@ std::string PlaceOf(const DiagnosisResult& s) {
     return PlaceOfEffect(first.effect);
   }
   if (a.verdict == Verdict::kNone) return "";
-  return PlaceOfResidual(a.remainder.coherent_with);
+  return PlaceOfResidual(a.residual.coherent_with);
 }
 
 std::vector<std::string> Channels(const DiagnosisResult& s) {
   const auto& channels = s.view->numbers.channels;
   if (s.answer.causes.empty()) {
     if (s.answer.verdict == Verdict::kNone) return {};
-    return {channels[s.answer.remainder.worst_channel]};
+    return {channels[s.answer.residual.worst_channel]};
   }
   std::vector<std::string> found;
   for (std::size_t a = 0; a < channels.size(); ++a) {

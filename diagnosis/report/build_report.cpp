@@ -1,9 +1,9 @@
 #include "diagnosis/report/build_report.hpp"
 
 #include "common/rotational_speed.hpp"
+#include "diagnosis/diagnose/diagnose_files.hpp"
 #include "diagnosis/report/affected_part.hpp"
 #include "diagnosis/report/calibrated_rig.hpp"
-#include "diagnosis/report/diagnose_files.hpp"
 #include "diagnosis/report/drawn_rotor.hpp"
 #include "diagnosis/report/excitation_coverage.hpp"
 #include "diagnosis/report/extended_rig.hpp"
@@ -60,7 +60,7 @@ ReportForecast ForecastOf(const Forecast& forecast) {
 }
 
 ReportResidual ResidualOf(const DiagnosisResult& result) {
-  const Residual& residual = result.answer.remainder;
+  const Residual& residual = result.answer.residual;
   return {.frequency_hz = residual.frequency_hz,
           .order = residual.order,
           .coherent_with = residual.coherent_with,
@@ -148,7 +148,7 @@ DiagnosisReport BuildReport(const DiagnosisResult& result) {
   return report;
 }
 
-DiagnosisReport BuildReport(const DiagnosisResult& result, const config::RigFile& rig) {
+DiagnosisReport BuildReport(const DiagnosisResult& result, const configuration::RigFile& rig) {
   DiagnosisReport report = BuildReport(result);
   report.extended_rig = ExtendedRig(result, rig);
   report.calibrated_rig = CalibratedRig(result, rig);

@@ -16,6 +16,6 @@ struct DiagnosisResult;
 [[nodiscard]] DiagnosisReport BuildReport(const DiagnosisResult& result);
 /// With the text of the rig files, made from `rig`.
 [[nodiscard]] DiagnosisReport BuildReport(const DiagnosisResult& result,
-                                          const config::RigFile& rig);
+                                          const configuration::RigFile& rig);
 
 }  // namespace levitas::diagnosis

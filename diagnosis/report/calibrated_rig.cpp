@@ -13,7 +13,7 @@ namespace levitas::diagnosis {
 namespace {
 
 /// Into the keys that the file has of its own.
-bool IntoKeys(const PlacedEffect& at, config::RigFile& rig) {
+bool IntoKeys(const PlacedEffect& at, configuration::RigFile& rig) {
   if (at.effect == effect::Id::kExtraDelay) {
     rig.plant.delay_samples = std::max(0.0, rig.plant.delay_samples + at.At("samples"));
     return true;
@@ -45,8 +45,8 @@ std::vector<effect::EffectConfig> CalibratedEntries(const DiagnosisResult& answe
   return entries;
 }
 
-std::string CalibratedRig(const DiagnosisResult& answer, const config::RigFile& rig) {
-  config::RigFile judged = WithOwnKeys(answer, rig);
+std::string CalibratedRig(const DiagnosisResult& answer, const configuration::RigFile& rig) {
+  configuration::RigFile judged = WithOwnKeys(answer, rig);
   std::string comments =
       "# The rig as amb diagnose judged it: its causes, then what was calibrated.\n";
   for (const PlacedEffect& at : CalibrationByPlace(answer)) {

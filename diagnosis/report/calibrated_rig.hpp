@@ -10,12 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/report/diagnose_files.hpp"
+#include "diagnosis/diagnose/diagnose_files.hpp"
 
 namespace levitas::diagnosis {
 
 /// Entries of `effects` for calibrated values that have no key of their own.
 [[nodiscard]] std::vector<effect::EffectConfig> CalibratedEntries(const DiagnosisResult& answer);
-[[nodiscard]] std::string CalibratedRig(const DiagnosisResult& answer, const config::RigFile& rig);
+[[nodiscard]] std::string CalibratedRig(const DiagnosisResult& answer,
+                                        const configuration::RigFile& rig);
 
 }  // namespace levitas::diagnosis

@@ -7,7 +7,7 @@
 #include <complex>
 #include <functional>
 
-#include "diagnosis/report/diagnose_files.hpp"
+#include "diagnosis/diagnose/diagnose_files.hpp"
 
 namespace levitas::diagnosis {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/diagnose/diagnose_files.hpp"
 #include "diagnosis/report/affected_part.hpp"
-#include "diagnosis/report/diagnose_files.hpp"
 
 namespace levitas::diagnosis {
 namespace {

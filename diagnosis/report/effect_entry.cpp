@@ -23,9 +23,9 @@ EntryValue Number(std::string key, double value, int digits = 6) {
 }
 
 /// The unit that a key ends in; null for a pure number.
-const config::Unit* FindUnit(const std::string& key) {
-  const config::Unit* longest = nullptr;
-  for (const config::Unit& unit : config::AllUnits()) {
+const configuration::Unit* FindUnit(const std::string& key) {
+  const configuration::Unit* longest = nullptr;
+  for (const configuration::Unit& unit : configuration::AllUnits()) {
     const std::string ending = fmt::format("_{}", unit.suffix);
     if (unit.suffix.empty() || !key.ends_with(ending)) continue;
     if (longest == nullptr || unit.suffix.size() > longest->suffix.size()) longest = &unit;
@@ -191,9 +191,9 @@ effect::EffectConfig PlaceIn(const effect::Row& row, const Location& at, std::si
 /// In SI, rounded to the digits that a file shows.
 std::optional<double> RoundedSi(const EntryValue& value) {
   if (!std::isfinite(value.number)) return std::nullopt;
-  const config::Unit* unit = FindUnit(value.key);
-  return config::ToSi(fmt::format("{:.{}g}", value.number, value.digits),
-                      unit == nullptr ? config::unit::kOne : *unit);
+  const configuration::Unit* unit = FindUnit(value.key);
+  return configuration::ToSi(fmt::format("{:.{}g}", value.number, value.digits),
+                             unit == nullptr ? configuration::unit::kOne : *unit);
 }
 
 /// Every effect has its line: a new one without an entry is refused by the compiler (-Wswitch).
@@ -292,7 +292,7 @@ std::optional<effect::EffectConfig> EntryFor(const RigView& rig, const PlacedEff
 }
 
 KeyUnit UnitOfKey(const std::string& key) {
-  const config::Unit* unit = FindUnit(key);
+  const configuration::Unit* unit = FindUnit(key);
   if (unit == nullptr) return {};
   return {std::string(unit->symbol),
           static_cast<double>(unit->factor) * std::pow(10.0, unit->decimal_exponent)};

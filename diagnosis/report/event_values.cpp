@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/report/diagnose_files.hpp"
+#include "diagnosis/diagnose/diagnose_files.hpp"
 #include "diagnosis/report/effect_entry.hpp"
 #include "numerics/normal_distribution.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -50,7 +51,7 @@ std::vector<std::size_t> NoisyAxes(const DiagnosisResult& s) {
 double NoiseOf(const DiagnosisResult& s, std::size_t axis) {
   const double reading = s.view->ReadingNoise(axis);
   const double own = s.view->model->effects().readings[axis].noise_rms_m;
-  const double found = s.answer.remainder.channels.at(axis).noise_rms_m;
+  const double found = s.answer.residual.channels.at(axis).noise_rms_m;
   return std::sqrt(std::max(0.0, found * found - (reading * reading - own * own)));
 }
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/report/diagnose_files.hpp"
+#include "diagnosis/diagnose/diagnose_files.hpp"
 
 namespace levitas::diagnosis {
 

@@ -15,9 +15,9 @@ namespace levitas::diagnosis {
 namespace {
 
 /// Why the strict reader refuses the rig; empty when it takes it.
-std::string Refusal(const config::RigFile& rig) {
+std::string Refusal(const configuration::RigFile& rig) {
   try {
-    static_cast<void>(config::ParseRig(config::WriteRig(rig), "extended_rig.yaml"));
+    static_cast<void>(configuration::ParseRig(configuration::WriteRig(rig), "extended_rig.yaml"));
     return {};
   } catch (const BadInput& refused) {
     return refused.what();
@@ -55,7 +55,7 @@ std::vector<effect::EffectConfig> EffectEntries(const DiagnosisResult& answer) {
   return entries;
 }
 
-config::RigFile WithOwnKeys(const DiagnosisResult& answer, config::RigFile rig) {
+configuration::RigFile WithOwnKeys(const DiagnosisResult& answer, configuration::RigFile rig) {
   for (const PlacedEffect& cause : CausesByPlace(answer)) {
     if (!IsShorterDelay(cause)) continue;
     rig.plant.delay_samples = std::max(0.0, rig.plant.delay_samples + cause.At("samples"));
@@ -63,12 +63,13 @@ config::RigFile WithOwnKeys(const DiagnosisResult& answer, config::RigFile rig) 
   return rig;
 }
 
-std::string WithEffects(config::RigFile rig, const std::vector<effect::EffectConfig>& entries) {
+std::string WithEffects(configuration::RigFile rig,
+                        const std::vector<effect::EffectConfig>& entries) {
   std::vector<effect::EffectConfig>& effects = rig.plant.effects;
   for (const effect::EffectConfig& entry : entries) ReplaceIn(effects, entry);
   const std::vector<effect::EffectConfig> of_file = effects;
   effects.insert(effects.end(), entries.begin(), entries.end());
-  if (Refusal(rig).empty()) return config::WriteRig(rig);
+  if (Refusal(rig).empty()) return configuration::WriteRig(rig);
   effects = of_file;
   std::string refused;
   for (const effect::EffectConfig& entry : entries) {
@@ -79,10 +80,10 @@ std::string WithEffects(config::RigFile rig, const std::vector<effect::EffectCon
     refused += fmt::format("# not known to this build's reader: {}\n{}", effect::At(entry.id).name,
                            AsComment(reason));
   }
-  return refused + config::WriteRig(rig);
+  return refused + configuration::WriteRig(rig);
 }
 
-std::string ExtendedRig(const DiagnosisResult& answer, const config::RigFile& rig) {
+std::string ExtendedRig(const DiagnosisResult& answer, const configuration::RigFile& rig) {
   std::string comments;
   const std::vector<NamedParameter> parameters = Parameters(answer);
   for (const NamedParameter& p : parameters) {

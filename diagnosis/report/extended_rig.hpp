@@ -11,18 +11,20 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/report/diagnose_files.hpp"
+#include "diagnosis/diagnose/diagnose_files.hpp"
 
 namespace levitas::diagnosis {
 
 /// One entry per place of a cause.
 [[nodiscard]] std::vector<effect::EffectConfig> EffectEntries(const DiagnosisResult& answer);
 /// What a cause changes under a key of the file's own: a delay shorter than the file says.
-[[nodiscard]] config::RigFile WithOwnKeys(const DiagnosisResult& answer, config::RigFile rig);
+[[nodiscard]] configuration::RigFile WithOwnKeys(const DiagnosisResult& answer,
+                                                 configuration::RigFile rig);
 /// The rig's complete text with these entries behind its own, or in the place of its own where they
 /// were counted (lost frames, noise); what its reader refuses as comments.
-[[nodiscard]] std::string WithEffects(config::RigFile rig,
+[[nodiscard]] std::string WithEffects(configuration::RigFile rig,
                                       const std::vector<effect::EffectConfig>& entries);
-[[nodiscard]] std::string ExtendedRig(const DiagnosisResult& answer, const config::RigFile& rig);
+[[nodiscard]] std::string ExtendedRig(const DiagnosisResult& answer,
+                                      const configuration::RigFile& rig);
 
 }  // namespace levitas::diagnosis

@@ -42,7 +42,7 @@ ReportLoop Judged(const Judge& judge) {
 
 /// Of a rig file's text as a program will read it.
 ReportLoop JudgeText(const std::string& text, const char* name, const LawOfRecords& at) {
-  return Judged([&] { return JudgeLoop(config::ParseRig(text, name).plant, at); });
+  return Judged([&] { return JudgeLoop(configuration::ParseRig(text, name).plant, at); });
 }
 
 std::string SpeedText(double from_rpm, double to_rpm) {
@@ -105,7 +105,7 @@ void Say(const std::string& sentence, const std::vector<std::string*>& files,
   for (std::string* file : files) *file = Comment(sentence) + *file;
 }
 
-void Judge(const config::RigFile& rig, const LawOfRecords& at, DiagnosisReport& report) {
+void Judge(const configuration::RigFile& rig, const LawOfRecords& at, DiagnosisReport& report) {
   ReportLevitation of{.law = at.name,
                       .from_rpm = RadPerSToRpm(at.slowest_rad_per_s),
                       .to_rpm = RadPerSToRpm(at.fastest_rad_per_s)};
@@ -119,7 +119,8 @@ void Judge(const config::RigFile& rig, const LawOfRecords& at, DiagnosisReport& 
 
 }  // namespace
 
-void JudgeLevitation(const config::RigFile& rig, const KnownLaws& known, DiagnosisReport& report) {
+void JudgeLevitation(const configuration::RigFile& rig, const KnownLaws& known,
+                     DiagnosisReport& report) {
   if (report.extended_rig.empty() || report.calibrated_rig.empty()) return;
   report.levitation.records_without_law = known.without;
   for (LawOfRecords at : known.laws) {

@@ -7,7 +7,7 @@
 #include <complex>
 #include <numbers>
 
-#include "diagnosis/report/diagnose_files.hpp"
+#include "diagnosis/diagnose/diagnose_files.hpp"
 #include "diagnosis/report/event_values.hpp"
 #include "numerics/normal_distribution.hpp"
 

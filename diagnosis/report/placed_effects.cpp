@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/report/diagnose_files.hpp"
+#include "diagnosis/diagnose/diagnose_files.hpp"
 #include "diagnosis/report/named_values.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 

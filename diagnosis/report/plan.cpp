@@ -56,7 +56,7 @@ std::string Spin(double rpm, double hold_s, double rate_rpm_per_s, double most_r
 
 }  // namespace
 
-std::string PlanScenario(const DiagnosisReport& s, const config::RigFile& rig) {
+std::string PlanScenario(const DiagnosisReport& s, const configuration::RigFile& rig) {
   std::vector<std::string> effects = s.also_possible;
   for (const ReportCause& cause : s.causes) effects.push_back(cause.effect);
   const bool sound = s.verdict == Verdict::kNone;
@@ -74,7 +74,7 @@ std::string PlanScenario(const DiagnosisReport& s, const config::RigFile& rig) {
     text +=
         fmt::format("# What the records lack: {}.\n", lacks.empty() ? s.next_experiment : lacks);
   } else if (effects.empty()) {
-    text += "# To learn where the remainder belongs.\n";
+    text += "# To learn where the residual belongs.\n";
   } else {
     text += fmt::format("# To separate {}:\n# {}.\n", fmt::join(effects, ", "), s.next_experiment);
   }

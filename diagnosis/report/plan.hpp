@@ -4,7 +4,7 @@
 // Contents   a test signal on every axis in turn when causes in the loop (timing, amplifier,
 //            magnet, sensor) are confusable, with the fastest clock when the difference is at high
 //            frequency; slow roll, two speeds and a run-up when causes of the rotation are; all of
-//            it when the remainder has no name.
+//            it when the residual has no name.
 // Not in it  what a scenario cannot do: another bias current, a weight hung on the shaft, a record
 //            of the healthy rig. NextExperiment (report_text.hpp) says when one of those is needed.
 // Thread     any; pure.
@@ -16,6 +16,7 @@
 
 namespace levitas::diagnosis {
 
-[[nodiscard]] std::string PlanScenario(const DiagnosisReport& report, const config::RigFile& rig);
+[[nodiscard]] std::string PlanScenario(const DiagnosisReport& report,
+                                       const configuration::RigFile& rig);
 
 }  // namespace levitas::diagnosis

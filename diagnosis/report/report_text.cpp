@@ -206,7 +206,7 @@ std::string SuspicionSentence(const DiagnosisReport& report) {
           "Calibration moved this number further from the rig file than chance would in all but "
           "{:.2g} % of healthy rigs: either it changed, or the file or its tolerance is wrong.",
           100.0 - percent);
-    case Doubt::kHeldOutHarm:
+    case Doubt::kValidationHarm:
       return fmt::format(
           "Its {:.0f} nat on the fitted data are decisive, but the validation data refute it: "
           "there the calibrated model foretells more without it.",
@@ -272,7 +272,7 @@ std::string SeparatingExperiment(const DiagnosisReport& report) {
     return "the same with another speed and another bias current: the change of the residual "
            "shows whether it belongs to the rotation, the magnets or neither";
   }
-  if (report.doubt == Doubt::kHeldOutHarm) return ValidationExperiment(report);
+  if (report.doubt == Doubt::kValidationHarm) return ValidationExperiment(report);
   if (report.doubt == Doubt::kMovedNumber) {
     return "records of the healthy rig (--healthy), or this number measured by itself: the rig "
            "file may be wrong";
@@ -345,7 +345,7 @@ std::string Reason(const DiagnosisReport& report, const ReportCandidate& candida
     return "would have to be negative, or cannot act in these data";
   }
   if (candidate.evidence_nat < kDecisive) {
-    return candidate.evidence_nat < 0.0 ? "explains less than its freedom costs"
+    return candidate.evidence_nat < 0.0 ? "improves the fit by less than its Occam factor costs"
                                         : "too little to be decisive";
   }
   const double behind = OwnEvidence(report) - candidate.evidence_nat;

@@ -16,7 +16,7 @@
 
 namespace levitas::diagnosis {
 
-using config::Tolerances;
+using configuration::Tolerances;
 
 /// Parameters of `eddy_current`: the whole force lags, or that of the current alone.
 inline constexpr const char* kRootTau = "sqrt(tau_s)";

@@ -12,9 +12,9 @@
 using namespace levitas;
 
 int main() try {
-  const auto rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
-  const auto controller = config::LoadController(
-      config::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
+  const auto rig = configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
+  const auto controller = configuration::LoadController(
+      configuration::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
   plant::Plant plant(rig.plant, /*seed=*/1);
   plant.RestInTouchdown();
   cycle::ControlCycle control({rig.numbers, controller.law, controller.supervisor});

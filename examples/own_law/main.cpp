@@ -32,10 +32,10 @@ std::unique_ptr<law::OwnLaw> Chosen(std::string_view word, double period_s) {
 }  // namespace
 
 int main(int count, char** words) try {
-  const auto rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+  const auto rig = configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
   // Sequence and protections are those of a controller file; its law is not used.
-  const auto controller = config::LoadController(
-      config::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
+  const auto controller = configuration::LoadController(
+      configuration::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
   cycle::ControlCycle control({rig.numbers, {}, controller.supervisor},
                               Chosen(count > 1 ? words[1] : "", rig.numbers.period_s()));
   plant::Plant plant(rig.plant, /*seed=*/1);

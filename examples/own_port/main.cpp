@@ -57,7 +57,7 @@ class Watch final : public loop::RecordSink {
 };
 
 int RunRig(int descriptor) {
-  const auto rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+  const auto rig = configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
   plant::Plant plant(rig.plant, /*seed=*/1);
   plant.RestInTouchdown();
   SocketLink link(descriptor);
@@ -69,12 +69,14 @@ int RunRig(int descriptor) {
 }
 
 int RunController(int descriptor) {
-  const auto rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs")).numbers;
-  const auto controller =
-      config::LoadController(config::FindConfig("flexible_rotor_commissioned", "controllers"), rig);
+  const auto rig =
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs")).numbers;
+  const auto controller = configuration::LoadController(
+      configuration::FindConfig("flexible_rotor_commissioned", "controllers"), rig);
   cycle::ControlCycle control({rig, controller.law, controller.supervisor});
-  Player player(config::LoadScenario(config::FindConfig("levitate", "scenarios"), rig), rig,
-                controller.supervisor.sequence.standstill_rad_per_s);
+  Player player(
+      configuration::LoadScenario(configuration::FindConfig("levitate", "scenarios"), rig), rig,
+      controller.supervisor.sequence.standstill_rad_per_s);
   SocketPort port(descriptor);
   Watch watch;
   rt::MonotonicClock clock;

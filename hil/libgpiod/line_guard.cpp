@@ -29,8 +29,7 @@ constexpr int kStartAttempts = 2000;  // of a millisecond
 constexpr int kHoldMs = 500;
 
 void Tell(std::string_view text) noexcept {
-  // Nobody may read it any more, or whoever does has stopped: the guard has better things to do
-  // than to wait for that.
+  // Never block on standard error: whoever reads it may have ended or stopped.
   pollfd room{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
   if (::poll(&room, 1, 0) <= 0) return;
   if (::write(STDERR_FILENO, text.data(), text.size()) < 0) return;

@@ -26,7 +26,7 @@
 namespace levitas::balancing {
 
 struct BalanceRequest {
-  config::RigFile rig;
+  configuration::RigFile rig;
   std::vector<RecordedRun> runs;      ///< the last is what the rotor is like now
   std::optional<law::LawConfig> law;  ///< none: as the records show it
   CorrectionPlanes planes;

@@ -25,7 +25,7 @@ constexpr double kRoomForProbe = 5.0;
 
 std::size_t SizeOf(Index i) { return static_cast<std::size_t>(i); }
 
-void RefuseUnlessOneRotor(const config::RigFile& rig) {
+void RefuseUnlessOneRotor(const configuration::RigFile& rig) {
   const plant::PlantConfig& plant = rig.plant;
   const auto refuse = [&rig](const char* why) {
     throw BadInput(fmt::format("rig {}: {}; amb balance is for one rotor on radial bearings",
@@ -146,7 +146,7 @@ std::string NameOf(const Unknown& unknown, const RigNumbers& rig) {
   return {};
 }
 
-BalanceRig::BalanceRig(const config::RigFile& rig, const RecordedPoint& point,
+BalanceRig::BalanceRig(const configuration::RigFile& rig, const RecordedPoint& point,
                        std::vector<double> planes_z_m)
     : rig_(rig), planes_z_m_(std::move(planes_z_m)), period_s_(rig.numbers.period_s()) {
   RefuseUnlessOneRotor(rig);
@@ -182,7 +182,7 @@ bool BalanceRig::MayMove(std::size_t bearing, double deviation_m) const {
 }
 
 void BalanceRig::ListUnknowns() {
-  const config::Tolerances by = rig_.tolerances.value_or(config::Tolerances{});
+  const configuration::Tolerances by = rig_.tolerances.value_or(configuration::Tolerances{});
   const auto add = [this](Kind kind, std::size_t index, double deviation) {
     if (deviation > 0.0) unknowns_.push_back({kind, index, deviation});
   };

@@ -67,7 +67,7 @@ struct RecordedPoint {
 
 class BalanceRig {
  public:
-  BalanceRig(const config::RigFile& rig, const RecordedPoint& point,
+  BalanceRig(const configuration::RigFile& rig, const RecordedPoint& point,
              std::vector<double> planes_z_m);
 
   [[nodiscard]] const std::vector<Unknown>& unknowns() const noexcept { return unknowns_; }
@@ -83,7 +83,7 @@ class BalanceRig {
     return static_cast<Eigen::Index>(planes_z_m_.size());
   }
   [[nodiscard]] double period_s() const noexcept { return period_s_; }
-  [[nodiscard]] const config::RigFile& rig() const noexcept { return rig_; }
+  [[nodiscard]] const configuration::RigFile& rig() const noexcept { return rig_; }
   /// Deflection of each mode at each plane [1/sqrt(kg)], modes x planes, of the rig file.
   [[nodiscard]] const Eigen::MatrixXd& shapes() const noexcept { return shapes_; }
   [[nodiscard]] const Eigen::VectorXd& frequency_rad_per_s() const noexcept {
@@ -108,7 +108,7 @@ class BalanceRig {
   void ListUnknowns();
   [[nodiscard]] bool MayMove(std::size_t bearing, double deviation_m) const;
 
-  config::RigFile rig_;
+  configuration::RigFile rig_;
   std::vector<double> planes_z_m_;
   plant::PlantParameters nominal_;
   plant::OperatingPoint point_;

@@ -15,8 +15,8 @@
 namespace levitas::balancing {
 namespace {
 
-using namespace config;
-using namespace config::unit;
+using namespace configuration;
+using namespace configuration::unit;
 
 constexpr std::size_t kMostPlanes = 20;
 constexpr std::size_t kMostHoles = 360;

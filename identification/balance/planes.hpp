@@ -42,9 +42,9 @@ struct CorrectionPlanes {
 [[nodiscard]] CorrectionPlane PlaneOfWord(const std::string& word);
 
 /// The rig file's own: its unbalance masses, with a radius of 0 (moments only).
-[[nodiscard]] CorrectionPlanes PlanesOfRig(const config::RigFile& rig);
+[[nodiscard]] CorrectionPlanes PlanesOfRig(const configuration::RigFile& rig);
 
 /// Names that are one, places off the shaft, largest masses below smallest: BadInput.
-void CheckPlanes(const CorrectionPlanes& planes, const config::RigFile& rig);
+void CheckPlanes(const CorrectionPlanes& planes, const configuration::RigFile& rig);
 
 }  // namespace levitas::balancing

@@ -8,8 +8,8 @@
 
 #include "common/problem.hpp"
 #include "common/rotational_speed.hpp"
-#include "session/csv_rows.hpp"
-#include "session/mat_rows.hpp"
+#include "session/exchange/csv_rows.hpp"
+#include "session/exchange/mat_rows.hpp"
 
 namespace levitas::balancing {
 namespace {
@@ -49,7 +49,7 @@ std::vector<analysis::TrackedWindow> Thinned(std::vector<analysis::TrackedWindow
 }
 
 /// Sessions and logs of the bus hold the angle; of other files a column says so.
-bool HasAngle(const std::string& path, const config::RigFile& rig) {
+bool HasAngle(const std::string& path, const configuration::RigFile& rig) {
   const auto& channels = rig.numbers.channels;
   if (path.ends_with(".csv") || path.ends_with(".csv.xz")) {
     return session::CsvRows(path, channels).layout().Has(session::CsvQuantity::kAngle);
@@ -62,7 +62,7 @@ bool HasAngle(const std::string& path, const config::RigFile& rig) {
 
 }  // namespace
 
-RecordedRun ReadRun(const session::Recording& recording, const config::RigFile& rig) {
+RecordedRun ReadRun(const session::Recording& recording, const configuration::RigFile& rig) {
   analysis::OrderTrackRule rule;
   const auto refuse = [&recording](const std::string& why) {
     throw BadInput(fmt::format("{}: {}", recording.name, why));
@@ -94,7 +94,7 @@ RecordedRun ReadRun(const session::Recording& recording, const config::RigFile& 
   return run;
 }
 
-RecordedRun LoadRun(const std::string& path, const config::RigFile& rig) {
+RecordedRun LoadRun(const std::string& path, const configuration::RigFile& rig) {
   if (!HasAngle(path, rig)) {
     throw BadInput(
         path +

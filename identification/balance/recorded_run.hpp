@@ -13,7 +13,7 @@
 
 #include "analysis/records/order_track.hpp"
 #include "configuration/rig_file.hpp"
-#include "session/recording.hpp"
+#include "session/exchange/recording.hpp"
 
 namespace levitas::balancing {
 
@@ -31,8 +31,9 @@ struct RecordedRun {
 };
 
 /// Throws BadInput when the record cannot be balanced by.
-[[nodiscard]] RecordedRun ReadRun(const session::Recording& recording, const config::RigFile& rig);
+[[nodiscard]] RecordedRun ReadRun(const session::Recording& recording,
+                                  const configuration::RigFile& rig);
 /// Of a session, CSV, MAT or candump file.
-[[nodiscard]] RecordedRun LoadRun(const std::string& path, const config::RigFile& rig);
+[[nodiscard]] RecordedRun LoadRun(const std::string& path, const configuration::RigFile& rig);
 
 }  // namespace levitas::balancing

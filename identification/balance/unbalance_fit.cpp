@@ -42,7 +42,8 @@ struct Trial {
 class FitProblem {
  public:
   explicit FitProblem(const Predictor& predictor) : predictor_(predictor) {
-    const config::Tolerances by = predictor.rig().rig().tolerances.value_or(config::Tolerances{});
+    const configuration::Tolerances by =
+        predictor.rig().rig().tolerances.value_or(configuration::Tolerances{});
     runout_m_ = std::max(by.sensor_runout_m, 1e-9);
     for (const Unknown& unknown : predictor.rig().unknowns()) {
       deviation_.conservativeResize(deviation_.size() + 1);

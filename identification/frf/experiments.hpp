@@ -18,7 +18,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "session/recording.hpp"
+#include "session/exchange/recording.hpp"
 
 namespace levitas::identification {
 

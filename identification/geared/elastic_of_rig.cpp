@@ -13,7 +13,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-void RefuseWhatOnePlaneDoesNotTell(const config::RigFile& rig, const gear::Wheel& wheel) {
+void RefuseWhatOnePlaneDoesNotTell(const configuration::RigFile& rig, const gear::Wheel& wheel) {
   const rotor::Shaft& shaft = rig.plant.shafts[wheel.shaft];
   const std::string at = fmt::format("{}: shaft {}: ", rig.numbers.name, shaft.name);
   if (shaft.is_beam && shaft.supports.empty()) {
@@ -65,7 +65,7 @@ Eigen::VectorXd Own(const Eigen::RowVectorXd& shape, const std::vector<Index>& o
 
 bool IsElastic(const rotor::Shaft& shaft) { return shaft.is_beam || !shaft.supports.empty(); }
 
-ShaftKnown ElasticOfRig(const config::RigFile& rig, const plant::PlantModel& model,
+ShaftKnown ElasticOfRig(const configuration::RigFile& rig, const plant::PlantModel& model,
                         const gear::Wheel& wheel) {
   RefuseWhatOnePlaneDoesNotTell(rig, wheel);
   const rotor::ModalRotor& all = model.parameters().modes;

@@ -18,7 +18,7 @@ namespace levitas::identification {
 [[nodiscard]] bool IsElastic(const rotor::Shaft& shaft);
 
 /// `index` of the shaft, `wheel` on it; the shaft has one bearing. All but ratio, ki and ks.
-[[nodiscard]] ShaftKnown ElasticOfRig(const config::RigFile& rig, const plant::PlantModel& model,
-                                      const gear::Wheel& wheel);
+[[nodiscard]] ShaftKnown ElasticOfRig(const configuration::RigFile& rig,
+                                      const plant::PlantModel& model, const gear::Wheel& wheel);
 
 }  // namespace levitas::identification

@@ -190,9 +190,9 @@ void FindUnexplained(const std::vector<TorsionLine>& lines, std::size_t index,
 }  // namespace
 
 HalfSpectrum HalfSpectrumOf(const session::Recording& record,
-                            const session::TorsionRecording& torsion, const config::RigFile& rig,
-                            const std::vector<GearedLine>& lines, const GearedParameters& found,
-                            int harmonics) {
+                            const session::TorsionRecording& torsion,
+                            const configuration::RigFile& rig, const std::vector<GearedLine>& lines,
+                            const GearedParameters& found, int harmonics) {
   HalfSpectrum half;
   if (torsion.rows() == 0 || !found.corrected.torsion) return half;
   const gear::GearPair& pair = rig.plant.gears.front();

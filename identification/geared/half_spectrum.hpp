@@ -25,8 +25,8 @@
 
 #include "configuration/rig_file.hpp"
 #include "identification/geared/full_spectrum.hpp"
-#include "session/recording.hpp"
-#include "session/torsion_recording.hpp"
+#include "session/exchange/recording.hpp"
+#include "session/log/torsion_recording.hpp"
 
 namespace levitas::identification {
 
@@ -58,7 +58,7 @@ struct HalfSpectrum {
 /// `lines` and `found` of the same record.
 [[nodiscard]] HalfSpectrum HalfSpectrumOf(const session::Recording& record,
                                           const session::TorsionRecording& torsion,
-                                          const config::RigFile& rig,
+                                          const configuration::RigFile& rig,
                                           const std::vector<GearedLine>& lines,
                                           const GearedParameters& found, int harmonics = 5);
 

@@ -9,7 +9,7 @@
 namespace levitas::identification {
 namespace {
 
-ShaftKnown Shaft(const config::RigFile& rig, const plant::PlantModel& model,
+ShaftKnown Shaft(const configuration::RigFile& rig, const plant::PlantModel& model,
                  const gear::Wheel& wheel, double ratio) {
   const rotor::Shaft& shaft = rig.plant.shafts[wheel.shaft];
   if (IsElastic(shaft)) {
@@ -29,7 +29,7 @@ ShaftKnown Shaft(const config::RigFile& rig, const plant::PlantModel& model,
   return known;
 }
 
-void RefuseOtherRigs(const config::RigFile& rig) {
+void RefuseOtherRigs(const configuration::RigFile& rig) {
   const plant::PlantConfig& plant = rig.plant;
   const bool pair = plant.gears.size() == 1 && plant.shafts.size() == 2 &&
                     plant.bearings.size() == 2 &&
@@ -48,7 +48,7 @@ void RefuseOtherRigs(const config::RigFile& rig) {
 
 }  // namespace
 
-GearedKnown KnownOfRig(const config::RigFile& rig) {
+GearedKnown KnownOfRig(const configuration::RigFile& rig) {
   RefuseOtherRigs(rig);
   const gear::GearPair& pair = rig.plant.gears.front();
   const plant::PlantModel model(rig.plant);

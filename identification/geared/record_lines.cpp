@@ -142,8 +142,8 @@ Complex Drive(double w, double corner_hz, double delay_s, double period_s) {
 
 }  // namespace
 
-std::vector<GearedLine> LinesOfRecord(const session::Recording& record, const config::RigFile& rig,
-                                      int harmonics) {
+std::vector<GearedLine> LinesOfRecord(const session::Recording& record,
+                                      const configuration::RigFile& rig, int harmonics) {
   const bool torsion = KnownOfRig(rig).torsion.has_value();
   const gear::GearPair& pair = rig.plant.gears.front();
   const Chain pinion = ChainOf(rig.plant, pair.driving.shaft);

@@ -20,13 +20,14 @@
 
 #include "configuration/rig_file.hpp"
 #include "identification/geared/full_spectrum.hpp"
-#include "session/recording.hpp"
+#include "session/exchange/recording.hpp"
 
 namespace levitas::identification {
 
-[[nodiscard]] GearedKnown KnownOfRig(const config::RigFile& rig);
+[[nodiscard]] GearedKnown KnownOfRig(const configuration::RigFile& rig);
 
 [[nodiscard]] std::vector<GearedLine> LinesOfRecord(const session::Recording& record,
-                                                    const config::RigFile& rig, int harmonics = 5);
+                                                    const configuration::RigFile& rig,
+                                                    int harmonics = 5);
 
 }  // namespace levitas::identification

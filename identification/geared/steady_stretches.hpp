@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "plant_sim/gear/gear_config.hpp"
-#include "session/recording.hpp"
+#include "session/exchange/recording.hpp"
 
 namespace levitas::identification {
 

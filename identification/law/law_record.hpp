@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "identification/law/law_fit.hpp"
-#include "session/recording.hpp"
+#include "session/exchange/recording.hpp"
 
 namespace levitas::identification {
 

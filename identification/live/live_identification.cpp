@@ -7,7 +7,7 @@
 
 #include "lcmtypes/checked_decode.hpp"
 #include "plant_sim/plant/slowest_amplifier.hpp"
-#include "session/record_codec.hpp"
+#include "session/log/record_codec.hpp"
 #include "transport/lcm_network.hpp"
 
 namespace levitas::identification {
@@ -49,7 +49,7 @@ void LiveIdentification::Take(const session::SessionHeader& header) {
     ended_ = true;
     return;
   }
-  rig_ = config::ParseRig(header.rig_yaml, "the announced rig");
+  rig_ = configuration::ParseRig(header.rig_yaml, "the announced rig");
   header_ = header;
   recursion_.emplace(OptionsFor(*rig_), on_point_);
   feed_.emplace(rig_->numbers, *recursion_);
@@ -59,7 +59,7 @@ void LiveIdentification::Take(std::uint64_t cycle, Mode mode) {
   if (feed_ && !ended_) feed_->Take(cycle, mode);
 }
 
-OnlineOptions LiveIdentification::OptionsFor(const config::RigFile& rig) const {
+OnlineOptions LiveIdentification::OptionsFor(const configuration::RigFile& rig) const {
   const auto axes = static_cast<Eigen::Index>(rig.numbers.axes());
   OnlineOptions online{options_.model, axes, axes, rig.numbers.period_s(), 0};
   online.window_rows = std::max<Eigen::Index>(2, std::lround(options_.window_s / online.period_s));

@@ -19,7 +19,7 @@
 
 #include "configuration/rig_file.hpp"
 #include "identification/live/sample_feed.hpp"
-#include "session/session_header.hpp"
+#include "session/log/session_header.hpp"
 
 namespace levitas::identification {
 
@@ -49,7 +49,7 @@ class LiveIdentification {
   void Take(std::uint64_t cycle, Mode mode);
 
   /// Empty before the first header.
-  [[nodiscard]] const std::optional<config::RigFile>& rig() const noexcept { return rig_; }
+  [[nodiscard]] const std::optional<configuration::RigFile>& rig() const noexcept { return rig_; }
   [[nodiscard]] const session::SessionHeader& header() const noexcept { return header_; }
   /// Empty before the first header.
   [[nodiscard]] std::optional<OnlineRecursion>& recursion() noexcept { return recursion_; }
@@ -61,7 +61,7 @@ class LiveIdentification {
   [[nodiscard]] std::uint64_t refused() const noexcept { return refused_; }
 
  private:
-  [[nodiscard]] OnlineOptions OptionsFor(const config::RigFile& rig) const;
+  [[nodiscard]] OnlineOptions OptionsFor(const configuration::RigFile& rig) const;
   bool TakeHeader(std::span<const std::uint8_t> payload);
   bool TakeState(std::span<const std::uint8_t> payload);
   bool TakeSamples(std::span<const std::uint8_t> payload);
@@ -69,7 +69,7 @@ class LiveIdentification {
   LiveOptions options_;
   OnPoint on_point_;
   session::SessionHeader header_;
-  std::optional<config::RigFile> rig_;
+  std::optional<configuration::RigFile> rig_;
   std::optional<OnlineRecursion> recursion_;
   std::optional<SampleFeed> feed_;
   bool ended_{};

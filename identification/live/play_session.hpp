@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "identification/live/live_identification.hpp"
-#include "session/session_reader.hpp"
+#include "session/log/session_reader.hpp"
 
 namespace levitas::identification {
 

@@ -14,7 +14,7 @@
 namespace levitas::identification {
 namespace {
 
-Eigen::Index ModesInBand(const config::RigFile& rig, double highest_hz) {
+Eigen::Index ModesInBand(const configuration::RigFile& rig, double highest_hz) {
   const auto most = static_cast<Eigen::Index>(rig.plant.rotor.modes_per_plane) - 2;
   const ModalStart all = StartFromRig(rig.plant, std::max<Eigen::Index>(most, 1));
   const auto& at = all.frame.layout;
@@ -35,13 +35,13 @@ std::vector<double> BendingHz(const ModalLayout& at, const Eigen::VectorXd& vect
 
 }  // namespace
 
-ResponseOptions ModalResponseOptions(const config::RigFile& rig) {
+ResponseOptions ModalResponseOptions(const configuration::RigFile& rig) {
   ResponseOptions options;
   options.amplifier_hz = rig.plant.bearings.front().amplifier.bandwidth_hz;
   return options;
 }
 
-ModalResult IdentifyModal(const config::RigFile& rig,
+ModalResult IdentifyModal(const configuration::RigFile& rig,
                           const std::vector<FrequencyResponse>& responses,
                           const ModalFitOptions& options) {
   if (!plant::HasPlainSensors(rig.plant)) {

@@ -40,9 +40,9 @@ struct ModalResult {
 };
 
 /// What EstimateResponses has to know of the rig for a modal fit.
-[[nodiscard]] ResponseOptions ModalResponseOptions(const config::RigFile& rig);
+[[nodiscard]] ResponseOptions ModalResponseOptions(const configuration::RigFile& rig);
 
-[[nodiscard]] ModalResult IdentifyModal(const config::RigFile& rig,
+[[nodiscard]] ModalResult IdentifyModal(const configuration::RigFile& rig,
                                         const std::vector<FrequencyResponse>& responses,
                                         const ModalFitOptions& options);
 /// The same with the search beginning elsewhere: see modal_starts.hpp.

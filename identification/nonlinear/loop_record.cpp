@@ -7,7 +7,7 @@
 
 #include "common/problem.hpp"
 #include "common/rotational_speed.hpp"
-#include "session/recording.hpp"
+#include "session/exchange/recording.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -53,7 +53,7 @@ void RefuseUnfit(const session::Recording& run, const session::RowRange& rows) {
 
 }  // namespace
 
-LoopRecord ReadLoopRecord(const std::string& path, const config::RigFile& rig) {
+LoopRecord ReadLoopRecord(const std::string& path, const configuration::RigFile& rig) {
   const session::Recording run = session::LoadRecording(path, rig);
   const session::RowRange rows = ExcitedRows(run);
   RefuseUnfit(run, rows);

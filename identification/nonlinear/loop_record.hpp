@@ -1,6 +1,6 @@
 #pragma once
 // Readings, commands and excitation of the closed loop of a standing rotor, cut out of a recorded
-// run (session/recording.hpp) as the matrices that the fit needs.
+// run (session/exchange/recording.hpp) as the matrices that the fit needs.
 //
 // Rows     from the first excited one on, consecutive, up to the first that is missing or not
 //          levitated.
@@ -21,6 +21,6 @@ struct LoopRecord {
   LoopExcitation excitation;
 };
 
-[[nodiscard]] LoopRecord ReadLoopRecord(const std::string& path, const config::RigFile& rig);
+[[nodiscard]] LoopRecord ReadLoopRecord(const std::string& path, const configuration::RigFile& rig);
 
 }  // namespace levitas::identification

@@ -9,8 +9,8 @@
 #include <map>
 
 #include "common/problem.hpp"
-#include "session/csv_columns.hpp"
-#include "session/line_source.hpp"
+#include "session/exchange/csv_columns.hpp"
+#include "session/exchange/line_source.hpp"
 
 namespace levitas::identification {
 namespace {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "session/recording.hpp"
+#include "session/exchange/recording.hpp"
 
 namespace levitas::identification {
 

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "common/problem.hpp"
-#include "session/csv_columns.hpp"
-#include "session/csv_head.hpp"
-#include "session/line_source.hpp"
+#include "session/exchange/csv_columns.hpp"
+#include "session/exchange/csv_head.hpp"
+#include "session/exchange/line_source.hpp"
 
 namespace levitas::identification {
 namespace {

@@ -4,7 +4,7 @@
 //
 // Names    displacement_<m|mm|um|nm> of the platform and reading_<m|mm|um|nm|v|mv> of the probe; or
 //          displacement and reading above a row of units, lengths only. Others are ignored.
-//          Comments, separators, decimal commas and .xz are as in session/csv_head.hpp.
+//          Comments, separators, decimal commas and .xz are as in session/exchange/csv_head.hpp.
 // Order    of the rows is that of the measurement: it tells which way the platform went. Places may
 //          be repeated and visited from both sides.
 // Sign     both columns along the axis of the bearing.

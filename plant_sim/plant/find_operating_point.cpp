@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "numerics/dense/factorisations.hpp"
-#include "plant_sim/plant/effects/effect_forces.hpp"
+#include "plant_sim/plant/applied_effects/effect_forces.hpp"
 #include "plant_sim/plant/eigen_index.hpp"
 
 namespace levitas::plant {

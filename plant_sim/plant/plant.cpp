@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plant_sim/plant/effects/effect_forces.hpp"
-#include "plant_sim/plant/effects/effect_signals.hpp"
+#include "plant_sim/plant/applied_effects/effect_forces.hpp"
+#include "plant_sim/plant/applied_effects/effect_signals.hpp"
 #include "plant_sim/plant/plant_impl.hpp"
 #include "plant_sim/plant/rest.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "plant_sim/plant/effects/effect_signals.hpp"
+#include "plant_sim/plant/applied_effects/effect_signals.hpp"
 
 namespace levitas::plant {
 

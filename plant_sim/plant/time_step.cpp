@@ -5,7 +5,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "plant_sim/plant/effects/effect_forces.hpp"
+#include "plant_sim/plant/applied_effects/effect_forces.hpp"
 
 namespace levitas::plant {
 namespace {

@@ -3,7 +3,7 @@
 // of it, in the words of the event.
 //
 // Thread   Heard and Saw: the recorder's, in the order of the records, a record's events first.
-//          Refuse: any but the loop's. given: written by the desk, in the loop's thread.
+//          Refuse: any but the loop's. given: written by the arbiter, in the loop's thread.
 // Failure  a record or an answer that was lost leaves its command unanswered; it is never answered
 //          by another one's outcome.
 
@@ -15,7 +15,7 @@
 #include "common/spsc_ring.hpp"
 #include "controller/cycle/cycle_io.hpp"
 #include "controller/loop/command_arbiter.hpp"
-#include "session/session_header.hpp"
+#include "session/log/session_header.hpp"
 #include "transport/command_answer.hpp"
 
 namespace levitas::controller_program {

@@ -1,8 +1,8 @@
 #pragma once
-// Where commands of the network wait for the operator's desk. Several threads write, one at a time;
+// Where commands of the network wait for the command arbiter. Several threads write, one at a time;
 // the loop reads and never waits for them.
 //
-// Thread   Post: any but the loop's; it locks for the length of a copy. ring: for the desk.
+// Thread   Post: any but the loop's; it locks for the length of a copy. ring: for the arbiter.
 // Failure  Post returns false when kRoom commands wait already: a person gives them one by one.
 
 #include <cstddef>

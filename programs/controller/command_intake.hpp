@@ -1,8 +1,8 @@
 #pragma once
-// What the network's operators ask for on its way to the desk: the stop on a latch of its own,
+// What the network's operators ask for on its way to the arbiter: the stop on a latch of its own,
 // commands through the inbox, test signals through the intake.
 //
-// Thread   the handlers': the receiver's, which nothing here holds up. Desk: for the loop.
+// Thread   the handlers': the receiver's, which nothing here holds up. Arbiter: for the loop.
 // Failure  what finds no room is not taken, and said at most once in kSayEvery.
 
 #include <chrono>

@@ -5,7 +5,7 @@
 
 #include "common/time_option.hpp"
 #include "common/whole_number.hpp"
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::controller_program {
 

@@ -25,8 +25,8 @@
 #include "rt/real_time.hpp"
 #include "rt/say.hpp"
 #include "rt/thread_trouble.hpp"
-#include "session/record_codec.hpp"
-#include "session/recorder.hpp"
+#include "session/log/record_codec.hpp"
+#include "session/log/recorder.hpp"
 #include "transport/command_policy.hpp"
 #include "transport/operator_receiver.hpp"
 #include "transport/sample_batcher.hpp"
@@ -40,20 +40,20 @@ namespace {
 constexpr int kBelowTheLoop = 5;  // priority of the thread that hears the emergency stop
 
 struct Files {
-  config::RigFile rig;
-  config::ControllerFile controller;
+  configuration::RigFile rig;
+  configuration::ControllerFile controller;
   std::optional<scenario::ScenarioConfig> scenario;
 };
 
 Files Load(const ControllerOptions& options) {
   Files files;
-  files.rig = config::LoadRig(config::FindConfig(options.rig, "rigs"));
+  files.rig = configuration::LoadRig(configuration::FindConfig(options.rig, "rigs"));
   ApplyPort(options, files.rig);
-  files.controller = config::LoadController(config::FindConfig(options.controller, "controllers"),
-                                            files.rig.numbers);
+  files.controller = configuration::LoadController(
+      configuration::FindConfig(options.controller, "controllers"), files.rig.numbers);
   if (!options.scenario.empty()) {
-    files.scenario =
-        config::LoadScenario(config::FindConfig(options.scenario, "scenarios"), files.rig.numbers);
+    files.scenario = configuration::LoadScenario(
+        configuration::FindConfig(options.scenario, "scenarios"), files.rig.numbers);
   }
   return files;
 }
@@ -62,9 +62,9 @@ session::SessionHeader Header(const ControllerOptions& options, const Files& fil
                               const std::vector<rt::RealTimeFact>& facts) {
   session::SessionHeader header;
   header.program_version = LEVITAS_VERSION;
-  header.rig_yaml = config::WriteRig(files.rig);
-  header.controller_yaml = config::WriteController(files.controller, files.rig.numbers);
-  if (files.scenario) header.scenario_yaml = config::WriteScenario(*files.scenario);
+  header.rig_yaml = configuration::WriteRig(files.rig);
+  header.controller_yaml = configuration::WriteController(files.controller, files.rig.numbers);
+  if (files.scenario) header.scenario_yaml = configuration::WriteScenario(*files.scenario);
   header.pace = options.realtime ? "realtime" : "lockstep";
   header.seed = options.seed;
   header.period_ns = files.rig.numbers.period_ns;
@@ -153,7 +153,7 @@ class Session {
     if (files.scenario) {
       player_.emplace(*files.scenario, numbers_.period_s(), sequence_.standstill_rad_per_s);
     }
-    for (const std::string& note : config::LawNotes(files.controller.law)) {
+    for (const std::string& note : configuration::LawNotes(files.controller.law)) {
       rt::Say("amb-controller: " + note);
     }
     if (lines_ != nullptr) guarded_.emplace(rig_->port(), *lines_, files.rig.lines);
@@ -163,14 +163,14 @@ class Session {
   }
 
   ExitStatus Run() {
-    loop::CommandArbiter desk({.period_s = numbers_.period_s(),
-                               .stop_acceleration_rad_per_s2 = StopRate(),
-                               .standstill_rad_per_s = sequence_.standstill_rad_per_s,
-                               .landing_ramp_s = sequence_.landing_ramp_s,
-                               .duration_s = options_.duration_s,
-                               .excitation = signal_limits_},
-                              player_ ? &*player_ : nullptr,
-                              {&intake_.commands(), &intake_.stops(), &answers_.given()});
+    loop::CommandArbiter arbiter({.period_s = numbers_.period_s(),
+                                  .stop_acceleration_rad_per_s2 = StopRate(),
+                                  .standstill_rad_per_s = sequence_.standstill_rad_per_s,
+                                  .landing_ramp_s = sequence_.landing_ramp_s,
+                                  .duration_s = options_.duration_s,
+                                  .excitation = signal_limits_},
+                                 player_ ? &*player_ : nullptr,
+                                 {&intake_.commands(), &intake_.stops(), &answers_.given()});
     rt::Say("amb-controller: who may command: " + policy_.who);
     std::optional<transport::OperatorReceiver> receiver;
     if (policy_.open) {
@@ -184,12 +184,12 @@ class Session {
         {.pace = options_.realtime ? loop::Pace::kRealtime : loop::Pace::kLockstep,
          .period_ns = numbers_.period_ns,
          .phase_ns = rig_->phase_ns()},
-        Port(), cycle_, desk, outlet_, clock_);
+        Port(), cycle_, arbiter, outlet_, clock_);
     std::atomic<bool> running{true};
-    Watchman watchman(loop, desk, options_, *rig_, lines_, [&] {
+    Watchman watchman(loop, arbiter, options_, *rig_, lines_, [&] {
       TellNews(rig_->TakeNews());
       scenario::GuardNotice notice;
-      while (desk.TakeNotice(notice)) TellNews(scenario::Text(notice, numbers_));
+      while (arbiter.TakeNotice(notice)) TellNews(scenario::Text(notice, numbers_));
       if (receiver) TellNews(receiver->TakeNews());
     });
     std::thread thread([&] {
@@ -200,10 +200,10 @@ class Session {
     const bool stayed = watchman.Watch(running);
     thread.join();
     // Also after an end without a landing: with lines, the enable line falls here.
-    Port().SayGoodbye(Goodbye(loop.last().in.frame, desk.standing()));
+    Port().SayGoodbye(Goodbye(loop.last().in.frame, arbiter.standing()));
     recorder_.Finish();  // the report names the trip's file and comes after the last event
     return Tell(loop.statistics(), receiver ? receiver->counts() : transport::OperatorCounts{},
-                desk.news(), desk.signals_reduced(), stayed);
+                arbiter.news(), arbiter.signals_reduced(), stayed);
   }
 
  private:

@@ -71,9 +71,9 @@ void ExcitationIntake::Run() {
   }
 }
 
-/// Empty when the desk has it.
+/// Empty when the arbiter has it.
 std::string ExcitationIntake::Try(const transport::NetworkExcitation& request) {
-  const scenario::Step step = config::ParseExcitation(request.step_yaml, "request", rig_);
+  const scenario::Step step = configuration::ParseExcitation(request.step_yaml, "request", rig_);
   loop::ExcitationPool::Slot* place = shelf_.Put(step, rig_.period_s());
   std::string why = HandOver(request, place);
   if (!why.empty() && place != nullptr) loop::ExcitationPool::GiveBack(place);

@@ -1,12 +1,12 @@
 #pragma once
 // Makes the test signals that are asked for over the network, in a thread of its own, and hands
-// them to the operator's desk. The cost of one signal is bounded by
+// them to the command arbiter. The cost of one signal is bounded by
 // configuration/excitation_request.hpp, the number of waiting signals by kWaiting, and nobody waits
 // for either.
 //
 // Order    one after the other. One that waits when an emergency stop or the command to end the
 //          test signal comes is not begun any more.
-// Thread   Take and EndWaiting: any but the loop's; they lock for the length of a copy. The desk
+// Thread   Take and EndWaiting: any but the loop's; they lock for the length of a copy. The arbiter
 //          plays what lies on the shelf.
 // Failure  a request that cannot be met is told, and nothing else happens. Take returns false when
 //          kWaiting wait already.

@@ -6,7 +6,7 @@
 #include <atomic>
 
 #include "controller/loop/control_loop.hpp"
-#include "session/recorder.hpp"
+#include "session/log/recorder.hpp"
 #include "transport/telemetry.hpp"
 
 namespace levitas::controller_program {

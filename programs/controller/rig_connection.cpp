@@ -80,7 +80,7 @@ transport::LcmNetwork TelemetryNetwork(const ControllerOptions& options) {
   return network;
 }
 
-void ApplyPort(const ControllerOptions& options, config::RigFile& rig) {
+void ApplyPort(const ControllerOptions& options, configuration::RigFile& rig) {
   if (!socketcan::IsCanPort(options.port)) return;
   if (!options.realtime) socketcan::RefuseLockstep(rig.buses, options.port);
   const auto connection =
@@ -90,7 +90,7 @@ void ApplyPort(const ControllerOptions& options, config::RigFile& rig) {
 }
 
 std::unique_ptr<RigConnection> Connect(const ControllerOptions& options,
-                                       const config::RigFile& rig) {
+                                       const configuration::RigFile& rig) {
   if (!socketcan::IsCanPort(options.port)) {
     return std::make_unique<LcmConnection>(TelemetryNetwork(options), rig.numbers.axes());
   }

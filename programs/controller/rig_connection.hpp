@@ -36,9 +36,9 @@ class RigConnection {
 [[nodiscard]] transport::LcmNetwork TelemetryNetwork(const ControllerOptions& options);
 
 /// What the port changes of the rig's description: from sample to current on its buses.
-void ApplyPort(const ControllerOptions& options, config::RigFile& rig);
+void ApplyPort(const ControllerOptions& options, configuration::RigFile& rig);
 
 [[nodiscard]] std::unique_ptr<RigConnection> Connect(const ControllerOptions& options,
-                                                     const config::RigFile& rig);
+                                                     const configuration::RigFile& rig);
 
 }  // namespace levitas::controller_program

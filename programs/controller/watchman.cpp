@@ -19,11 +19,11 @@ namespace {
 constexpr auto kLookEvery = std::chrono::milliseconds(20);
 }  // namespace
 
-Watchman::Watchman(loop::ControlLoop& loop, loop::CommandArbiter& desk,
+Watchman::Watchman(loop::ControlLoop& loop, loop::CommandArbiter& arbiter,
                    const ControllerOptions& options, const RigConnection& rig,
                    const gpio::GpiodLines* lines, std::function<void()> tell_news)
     : loop_(loop),
-      desk_(desk),
+      arbiter_(arbiter),
       options_(options),
       rig_(rig),
       lines_(lines),
@@ -46,7 +46,7 @@ void Watchman::Look() {
   tell_news_();
   TellEnd();
   if (rt::QuitSignal()) {
-    if (!landing_) desk_.RequestEmergencyStop();
+    if (!landing_) arbiter_.RequestEmergencyStop();
     Land("emergency stop by SIGQUIT");
   }
   const int asked = rt::StopSignals();
@@ -60,7 +60,7 @@ void Watchman::Look() {
 void Watchman::Land(const char* why) {
   if (landing_) return;
   landing_ = true;
-  desk_.RequestStop();
+  arbiter_.RequestStop();
   rt::Say(fmt::format("amb-controller: {}", why));
 }
 
@@ -79,7 +79,7 @@ void Watchman::LookAtParent() {
 }
 
 void Watchman::TellEnd() {
-  const loop::EndNews news = desk_.news();
+  const loop::EndNews news = arbiter_.news();
   const double rpm = RadPerSToRpm(news.speed_rad_per_s);
   if (news.overdue && !overdue_said_) {
     overdue_said_ = true;

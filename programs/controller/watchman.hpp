@@ -5,10 +5,10 @@
 // Landing  asked for by a signal, by a thread that failed (also by the main thread itself), when
 //          the guard has ended, and when the program that started this one has (its pipe ends). The
 //          loop is ended without one when the same signal comes again, and when no rig is there.
-//          How long a landing may take is the desk's business, in the rig's time: a wall clock
+//          How long a landing may take is the arbiter's business, in the rig's time: a wall clock
 //          knows nothing of a rig that runs down slowly, or of a machine that simulates slowly.
 // Quit     an emergency stop, and the end after it.
-// News     what the desk finds at the end (command_arbiter.hpp) is said once.
+// News     what the arbiter finds at the end (command_arbiter.hpp) is said once.
 // Thread   main. Failure: none.
 
 #include <atomic>
@@ -28,7 +28,7 @@ class Watchman {
  public:
   /// Keeps references to all of them; `lines` may be null. `tell_news`: what port and
   /// network have to say.
-  Watchman(loop::ControlLoop& loop, loop::CommandArbiter& desk, const ControllerOptions& options,
+  Watchman(loop::ControlLoop& loop, loop::CommandArbiter& arbiter, const ControllerOptions& options,
            const RigConnection& rig, const gpio::GpiodLines* lines,
            std::function<void()> tell_news);
 
@@ -44,7 +44,7 @@ class Watchman {
   void Land(const char* why);
 
   loop::ControlLoop& loop_;
-  loop::CommandArbiter& desk_;
+  loop::CommandArbiter& arbiter_;
   const ControllerOptions& options_;
   const RigConnection& rig_;
   const gpio::GpiodLines* lines_;

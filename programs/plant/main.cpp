@@ -13,7 +13,8 @@ constexpr std::int64_t kSpinNs = 20'000;
 constexpr const plant_run::PlantProgram& kProgram = plant_run::kAmbPlant;
 
 ExitStatus Run(const plant_run::PlantOptions& options) {
-  const config::RigFile rig = config::LoadRig(config::FindConfig(options.rig, "rigs"));
+  const configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig(options.rig, "rigs"));
   transport::LcmNetwork network = transport::ParseLcmNetwork(options.port);
   transport::TakeKey(network, options.key, "play the controller");
   transport::LcmRigLink link(network, rig.numbers.axes(), kSpinNs);

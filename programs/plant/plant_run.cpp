@@ -184,7 +184,8 @@ ExitStatus RunPlant(const PlantSetup& setup) {
   plant::Plant plant(setup.rig.plant, options.seed);
   scenario::ScenarioConfig scenario;
   if (!options.scenario.empty()) {
-    scenario = config::LoadScenario(config::FindConfig(options.scenario, "scenarios"), numbers);
+    scenario = configuration::LoadScenario(configuration::FindConfig(options.scenario, "scenarios"),
+                                           numbers);
   }
   TimedEvents events(scenario, setup.rig.numbers, setup.rig.plant);
   events.Prepare(plant);

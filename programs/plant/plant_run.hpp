@@ -20,7 +20,7 @@ namespace levitas::plant_run {
 struct PlantSetup {
   const PlantProgram& program;
   const PlantOptions& options;
-  const config::RigFile& rig;
+  const configuration::RigFile& rig;
   port::RigLink& link;
   std::string where;  ///< for people: where the controller should be
   AmplifierGate* gate{nullptr};

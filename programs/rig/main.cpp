@@ -33,7 +33,7 @@ class LineGate final : public plant_run::AmplifierGate {
 };
 
 /// Two rigs on one bus would both send positions, and both obey.
-void RefuseRealBus(const plant_run::PlantOptions& options, const config::RigFile& rig) {
+void RefuseRealBus(const plant_run::PlantOptions& options, const configuration::RigFile& rig) {
   const std::string real = socketcan::RealInterface(rig.buses, options.port);
   if (real.empty() || options.on_a_real_bus) return;
   throw Problem(
@@ -46,7 +46,8 @@ void RefuseRealBus(const plant_run::PlantOptions& options, const config::RigFile
 }
 
 ExitStatus Run(const plant_run::PlantOptions& options) {
-  config::RigFile rig = config::LoadRig(config::FindConfig(options.rig, "rigs"));
+  configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig(options.rig, "rigs"));
   if (!socketcan::IsCanPort(options.port)) {
     throw Problem(
         ExitStatus::kUsage,

@@ -5,7 +5,7 @@
 
 #include "common/problem.hpp"
 #include "hil/can/codec.hpp"
-#include "session/candump_import.hpp"
+#include "session/exchange/candump_import.hpp"
 #include "tests/fuzz/import_rig.hpp"
 
 namespace levitas::fuzz {

@@ -1,7 +1,7 @@
 // A measured CSV file becomes a session, or is refused in one sentence; what was imported is read.
 
 #include "common/problem.hpp"
-#include "session/session_reader.hpp"
+#include "session/log/session_reader.hpp"
 #include "tests/fuzz/import_rig.hpp"
 #include "tests/fuzz/verify.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 // The rig that fuzzed measurements are imported for, and where their sessions go.
 
-#include "session/csv_import.hpp"
+#include "session/exchange/csv_import.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 
 namespace levitas::fuzz {

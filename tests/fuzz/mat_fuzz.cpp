@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "common/problem.hpp"
-#include "session/mat_variables.hpp"
+#include "session/exchange/mat_variables.hpp"
 #include "tests/fuzz/import_rig.hpp"
 
 namespace levitas::fuzz {

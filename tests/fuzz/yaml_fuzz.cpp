@@ -11,7 +11,7 @@ namespace {
 
 const RigNumbers& Rig() {
   static const RigNumbers kRig =
-      config::LoadRig(config::FindConfig("flexible_rotor", "rigs")).numbers;
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs")).numbers;
   return kRig;
 }
 
@@ -19,16 +19,17 @@ void Parse(std::uint8_t kind, const std::string& text) {
   constexpr const char* kName = "input.yaml";
   switch (kind % 4) {
     case 0:
-      (void)config::WriteRig(config::ParseRig(text, kName));
+      (void)configuration::WriteRig(configuration::ParseRig(text, kName));
       return;
     case 1:
-      (void)config::WriteController(config::ParseController(text, kName, Rig()), Rig());
+      (void)configuration::WriteController(configuration::ParseController(text, kName, Rig()),
+                                           Rig());
       return;
     case 2:
-      (void)config::WriteScenario(config::ParseScenario(text, kName, Rig()));
+      (void)configuration::WriteScenario(configuration::ParseScenario(text, kName, Rig()));
       return;
     default:
-      (void)config::ParseExcitation(text, kName, Rig());
+      (void)configuration::ParseExcitation(text, kName, Rig());
   }
 }
 
@@ -36,7 +37,7 @@ void Parse(std::uint8_t kind, const std::string& text) {
 
 std::vector<std::string> Seeds() {
   const auto shipped = [](char kind, const char* name, const char* folder) {
-    return kind + Content(config::FindConfig(name, folder));
+    return kind + Content(configuration::FindConfig(name, folder));
   };
   return {shipped('\0', "flexible_rotor", "rigs"), shipped('\1', "flexible_rotor", "controllers"),
           shipped('\2', "default", "scenarios"), shipped('\2', "identify", "scenarios"),

@@ -270,7 +270,7 @@ const std::vector<LevitatorEffect>& LevitatorEffects() {
   return kEffects;
 }
 
-LevitatorTrial MakeLevitatorTrial(const config::RigFile& rig, std::uint64_t seed,
+LevitatorTrial MakeLevitatorTrial(const configuration::RigFile& rig, std::uint64_t seed,
                                   const std::string& hidden) {
   const levitator::NominalRig nominal = levitator::NominalOf(rig);
   LevitatorTrial trial;

@@ -33,7 +33,7 @@ struct LevitatorTrial {
 };
 
 /// The effect is drawn from the seed; `hidden` names it instead, "none" for a healthy rig.
-[[nodiscard]] LevitatorTrial MakeLevitatorTrial(const config::RigFile& rig, std::uint64_t seed,
-                                                const std::string& hidden = {});
+[[nodiscard]] LevitatorTrial MakeLevitatorTrial(const configuration::RigFile& rig,
+                                                std::uint64_t seed, const std::string& hidden = {});
 
 }  // namespace levitas::accuracy

@@ -17,14 +17,14 @@ namespace levitas::test {
 
 struct ShippedLoop {
   ShippedLoop(const std::string& rig_name, const std::string& scenario_name)
-      : rig(config::LoadRig(config::FindConfig(rig_name, "rigs"))),
-        controller(config::LoadController(
-            config::FindConfig(
+      : rig(configuration::LoadRig(configuration::FindConfig(rig_name, "rigs"))),
+        controller(configuration::LoadController(
+            configuration::FindConfig(
                 rig.run.controller.empty() ? "flexible_rotor_commissioned" : rig.run.controller,
                 "controllers"),
             rig.numbers)),
-        scenario(
-            config::LoadScenario(config::FindConfig(scenario_name, "scenarios"), rig.numbers)) {}
+        scenario(configuration::LoadScenario(configuration::FindConfig(scenario_name, "scenarios"),
+                                             rig.numbers)) {}
 
   struct Most {
     double orbit_m{};
@@ -91,8 +91,8 @@ struct ShippedLoop {
     }
   }
 
-  config::RigFile rig;
-  config::ControllerFile controller;
+  configuration::RigFile rig;
+  configuration::ControllerFile controller;
   scenario::ScenarioConfig scenario;
   Most most;
 };

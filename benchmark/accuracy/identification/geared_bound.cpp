@@ -25,7 +25,7 @@ constexpr int kDraws = 4001;
 constexpr double kWidest = 10.0;
 
 struct Unknown {
-  std::function<void(config::RigFile&, double)> move;  ///< by a share of its value
+  std::function<void(configuration::RigFile&, double)> move;  ///< by a share of its value
   double prior{kWidest};
 };
 
@@ -38,39 +38,40 @@ struct Unknowns {
   std::vector<Index> varying{};
   Index mesh_stiffness{}, mesh_damping{};
 
-  Index Add(std::function<void(config::RigFile&, double)> move, double prior = kWidest) {
+  Index Add(std::function<void(configuration::RigFile&, double)> move, double prior = kWidest) {
     all.push_back({std::move(move), prior});
     return static_cast<Index>(all.size()) - 1;
   }
 };
 
-gear::GearPair& Pair(config::RigFile& rig) { return rig.plant.gears.front(); }
+gear::GearPair& Pair(configuration::RigFile& rig) { return rig.plant.gears.front(); }
 
 void AddMagnet(std::size_t s, Unknowns& to) {
   // ki = 4 k i0/s0^2, ks = 4 k i0^2/s0^3: gap ~ ki/ks, k ~ ki^3/ks^2.
-  to.ki[s] = to.Add([s](config::RigFile& rig, double share) {
+  to.ki[s] = to.Add([s](configuration::RigFile& rig, double share) {
     auto& magnet = rig.plant.bearings[s].magnet;
     magnet.gap_m *= 1.0 + share;
     magnet.force_constant_n_m2_per_a2 *= std::pow(1.0 + share, 3);
   });
-  to.ks[s] = to.Add([s](config::RigFile& rig, double share) {
+  to.ks[s] = to.Add([s](configuration::RigFile& rig, double share) {
     auto& magnet = rig.plant.bearings[s].magnet;
     magnet.gap_m /= 1.0 + share;
     magnet.force_constant_n_m2_per_a2 /= std::pow(1.0 + share, 2);
   });
-  to.run_out[s] = to.Add([s](config::RigFile& rig, double share) {
+  to.run_out[s] = to.Add([s](configuration::RigFile& rig, double share) {
     (s == 0 ? Pair(rig).driving : Pair(rig).driven).runout_m *= 1.0 + share;
   });
-  to.Add([s](config::RigFile& rig, double share) {
+  to.Add([s](configuration::RigFile& rig, double share) {
     (s == 0 ? Pair(rig).driving : Pair(rig).driven).runout_phase_rad += share;
   });
 }
 
-void AddTorsion(const config::RigFile& rig, std::size_t s, double uncertainty, Unknowns& to) {
+void AddTorsion(const configuration::RigFile& rig, std::size_t s, double uncertainty,
+                Unknowns& to) {
   for (std::size_t i = 0; i < rig.plant.shafts[s].torsion.inertias.size(); ++i) {
     const auto add = [&](auto member) {
       to.Add(
-          [s, i, member](config::RigFile& moved, double share) {
+          [s, i, member](configuration::RigFile& moved, double share) {
             moved.plant.shafts[s].torsion.inertias[i].*member *= 1.0 + share;
           },
           uncertainty);
@@ -83,43 +84,44 @@ void AddTorsion(const config::RigFile& rig, std::size_t s, double uncertainty, U
 
 void AddKnown(std::size_t s, double uncertainty, Unknowns& to) {
   to.Add(
-      [s](config::RigFile& rig, double share) {
+      [s](configuration::RigFile& rig, double share) {
         rig.plant.shafts[s].lumped.mass_kg *= 1.0 + share;
         (s == 0 ? Pair(rig).driving : Pair(rig).driven).eccentric_mass_kg *= 1.0 + share;
       },
       uncertainty);
-  to.Add([s](config::RigFile& rig,
+  to.Add([s](configuration::RigFile& rig,
              double share) { rig.plant.shafts[s].lumped.damping_n_s_per_m *= 1.0 + share; },
          uncertainty);
   to.stiffness[s] = to.Add(
-      [s](config::RigFile& rig, double share) {
+      [s](configuration::RigFile& rig, double share) {
         auto& lumped = rig.plant.shafts[s].lumped;
         lumped.kll_n_per_m *= 1.0 + share;
         lumped.kla_n *= 1.0 + share;
         lumped.kaa_n_m *= 1.0 + share;
       },
       uncertainty);
-  to.Add([s](config::RigFile& rig,
+  to.Add([s](configuration::RigFile& rig,
              double share) { rig.plant.shafts[s].lumped.diametral_inertia_kg_m2 *= 1.0 + share; },
          uncertainty);
-  to.Add([s](config::RigFile& rig,
+  to.Add([s](configuration::RigFile& rig,
              double share) { rig.plant.shafts[s].lumped.polar_inertia_kg_m2 *= 1.0 + share; },
          uncertainty);
 }
 
 Index AddError(std::size_t harmonic, Unknowns& to) {
-  const Index first = to.Add([harmonic](config::RigFile& rig, double share) {
+  const Index first = to.Add([harmonic](configuration::RigFile& rig, double share) {
     Pair(rig).transmission_error[harmonic].amplitude_m *= 1.0 + share;
   });
-  to.Add([harmonic](config::RigFile& rig, double share) {
+  to.Add([harmonic](configuration::RigFile& rig, double share) {
     Pair(rig).transmission_error[harmonic].phase_rad += share;
   });
   return first;
 }
 
-/// A train that turns freely takes up what is along the line of action: only the rest can be told.
+/// A free train absorbs the mean error along the line of action: only what is across it is
+/// identifiable.
 Index AddMeanAcross(std::size_t harmonic, Unknowns& to) {
-  return to.Add([harmonic](config::RigFile& rig, double share) {
+  return to.Add([harmonic](configuration::RigFile& rig, double share) {
     const gear::Vector n = gear::LineOfAction(Pair(rig).pressure_angle_rad);
     const Complex along(n.x, n.y);
     gear::Harmonic& h = Pair(rig).transmission_error[harmonic];
@@ -130,12 +132,12 @@ Index AddMeanAcross(std::size_t harmonic, Unknowns& to) {
   });
 }
 
-Unknowns UnknownsOf(const config::RigFile& rig, const GearedPlan& plan) {
+Unknowns UnknownsOf(const configuration::RigFile& rig, const GearedPlan& plan) {
   Unknowns to;
-  to.mesh_stiffness =
-      to.Add([](config::RigFile& r, double share) { Pair(r).stiffness_n_per_m *= 1.0 + share; });
-  to.mesh_damping =
-      to.Add([](config::RigFile& r, double share) { Pair(r).damping_n_s_per_m *= 1.0 + share; });
+  to.mesh_stiffness = to.Add(
+      [](configuration::RigFile& r, double share) { Pair(r).stiffness_n_per_m *= 1.0 + share; });
+  to.mesh_damping = to.Add(
+      [](configuration::RigFile& r, double share) { Pair(r).damping_n_s_per_m *= 1.0 + share; });
   for (std::size_t s = 0; s < 2; ++s) {
     AddMagnet(s, to);
     if (plan.model_error <= 0.0) continue;
@@ -171,7 +173,7 @@ Eigen::VectorXd Stacked(const std::vector<GearedLine>& lines, double sigma_m, do
 }
 
 /// Orthonormal directions in which unknown currents move the readings of one speed.
-Eigen::MatrixXd ByCurrents(const config::RigFile& rig, const GearedPlan& plan, double speed,
+Eigen::MatrixXd ByCurrents(const configuration::RigFile& rig, const GearedPlan& plan, double speed,
                            const std::vector<GearedLine>& lines, double sigma_m, double sigma_a) {
   const Eigen::VectorXd still = Stacked(lines, sigma_m, sigma_a);
   Eigen::MatrixXd moved(still.size(), 4 * static_cast<Index>(lines.size()));
@@ -189,7 +191,7 @@ Eigen::MatrixXd ByCurrents(const config::RigFile& rig, const GearedPlan& plan, d
   return Eigen::MatrixXd(qr.householderQ()).leftCols(qr.rank());
 }
 
-Eigen::MatrixXd Information(const config::RigFile& rig, const GearedPlan& plan,
+Eigen::MatrixXd Information(const configuration::RigFile& rig, const GearedPlan& plan,
                             const Unknowns& unknowns) {
   const auto count = static_cast<Index>(unknowns.all.size());
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(count, count);
@@ -207,7 +209,7 @@ Eigen::MatrixXd Information(const config::RigFile& rig, const GearedPlan& plan,
     for (Index k = 0; k < count; ++k) {
       std::array<Eigen::VectorXd, 2> sides;
       for (std::size_t side = 0; side < 2; ++side) {
-        config::RigFile moved = rig;
+        configuration::RigFile moved = rig;
         unknowns.all[static_cast<std::size_t>(k)].move(moved, side == 0 ? kStep : -kStep);
         sides[side] = Stacked(LinesAt(moved, plan, speed), sigma_m, sigma_a);
       }
@@ -232,7 +234,8 @@ Eigen::MatrixXd Information(const config::RigFile& rig, const GearedPlan& plan,
 }
 
 /// One draw's errors as Compare counts them.
-GearedErrors ErrorsOf(const config::RigFile& rig, const Unknowns& at, const Eigen::VectorXd& off) {
+GearedErrors ErrorsOf(const configuration::RigFile& rig, const Unknowns& at,
+                      const Eigen::VectorXd& off) {
   GearedErrors e;
   e.mesh_stiffness = std::abs(off[at.mesh_stiffness]);
   e.mesh_damping = std::abs(off[at.mesh_damping]);
@@ -256,7 +259,7 @@ GearedErrors ErrorsOf(const config::RigFile& rig, const Unknowns& at, const Eige
 
 }  // namespace
 
-GearedErrors BoundOf(const config::RigFile& rig, const GearedPlan& plan) {
+GearedErrors BoundOf(const configuration::RigFile& rig, const GearedPlan& plan) {
   const Unknowns unknowns = UnknownsOf(rig, plan);
   const Eigen::LLT<Eigen::MatrixXd> root(Information(rig, plan, unknowns));
   Random random(plan.seed);

@@ -15,6 +15,6 @@
 namespace levitas::accuracy {
 
 /// `plan` needs noise; its seed draws.
-[[nodiscard]] GearedErrors BoundOf(const config::RigFile& rig, const GearedPlan& plan);
+[[nodiscard]] GearedErrors BoundOf(const configuration::RigFile& rig, const GearedPlan& plan);
 
 }  // namespace levitas::accuracy

@@ -227,8 +227,8 @@ GearedLine Line(Kind kind, int harmonic = 0) {
 
 }  // namespace
 
-std::vector<GearedLine> LinesAt(const config::RigFile& rig, const GearedPlan& plan, double speed,
-                                const std::vector<AddedCurrent>& added) {
+std::vector<GearedLine> LinesAt(const configuration::RigFile& rig, const GearedPlan& plan,
+                                double speed, const std::vector<AddedCurrent>& added) {
   const gear::GearPair& pair = rig.plant.gears.front();
   const double gear_speed = speed * pair.driving.teeth / static_cast<double>(pair.driven.teeth);
   Loop loop(rig.plant, plan, speed, added);

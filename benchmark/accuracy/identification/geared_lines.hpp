@@ -33,7 +33,7 @@ struct AddedCurrent {
 };
 
 [[nodiscard]] std::vector<identification::GearedLine> LinesAt(
-    const config::RigFile& rig, const GearedPlan& plan, double speed_rad_per_s,
+    const configuration::RigFile& rig, const GearedPlan& plan, double speed_rad_per_s,
     const std::vector<AddedCurrent>& added = {});
 
 [[nodiscard]] double KsOf(const plant::BearingConfig& bearing);

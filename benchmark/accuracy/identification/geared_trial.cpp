@@ -50,10 +50,10 @@ void Mislead(identification::ShaftKnown& s, double error, Random& random) {
 }
 
 /// Inertias and springs of the drawing, each off by itself; base radii follow from the teeth.
-void MisleadTorsion(const config::RigFile& rig, double error, Random& random,
+void MisleadTorsion(const configuration::RigFile& rig, double error, Random& random,
                     identification::GearedKnown& known) {
   if (!known.torsion) return;
-  config::RigFile drawn = rig;
+  configuration::RigFile drawn = rig;
   for (rotor::Shaft& shaft : drawn.plant.shafts) {
     for (auto& inertia : shaft.torsion.inertias) {
       for (double* value : {&inertia.inertia_kg_m2, &inertia.stiffness_n_m_per_rad}) {
@@ -68,7 +68,7 @@ double Relative(double found, double truth) { return std::abs(found / truth - 1.
 
 }  // namespace
 
-GearedTrial MakeGearedTrial(const config::RigFile& rig, const GearedPlan& plan) {
+GearedTrial MakeGearedTrial(const configuration::RigFile& rig, const GearedPlan& plan) {
   GearedTrial trial{{}, identification::KnownOfRig(rig)};
   Random random(plan.seed);
   for (const double hz : plan.speeds_hz) {
@@ -87,7 +87,8 @@ GearedTrial MakeGearedTrial(const config::RigFile& rig, const GearedPlan& plan) 
   return trial;
 }
 
-GearedErrors Compare(const config::RigFile& rig, const identification::GearedParameters& found) {
+GearedErrors Compare(const configuration::RigFile& rig,
+                     const identification::GearedParameters& found) {
   const std::array<double, 2> known_n_per_m{found.corrected.pinion.stiffness_n_per_m,
                                             found.corrected.gear.stiffness_n_per_m};
   const gear::GearPair& pair = rig.plant.gears.front();

@@ -19,7 +19,8 @@ struct GearedTrial {
   identification::GearedKnown known;  ///< with its errors
 };
 
-[[nodiscard]] GearedTrial MakeGearedTrial(const config::RigFile& rig, const GearedPlan& plan);
+[[nodiscard]] GearedTrial MakeGearedTrial(const configuration::RigFile& rig,
+                                          const GearedPlan& plan);
 
 /// Largest relative errors; phases count, as |found - true| / |true|.
 struct GearedErrors {
@@ -30,7 +31,7 @@ struct GearedErrors {
   double varying_error{};        ///< median over the harmonics
 };
 
-[[nodiscard]] GearedErrors Compare(const config::RigFile& rig,
+[[nodiscard]] GearedErrors Compare(const configuration::RigFile& rig,
                                    const identification::GearedParameters& found);
 
 }  // namespace levitas::accuracy

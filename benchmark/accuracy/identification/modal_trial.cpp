@@ -106,7 +106,7 @@ Eigen::VectorXd Relative(const Eigen::VectorXd& found, const Eigen::VectorXd& tr
 
 }  // namespace
 
-ModalTrial MakeModalTrial(const config::RigFile& nominal, const ExcitationPlan& plan,
+ModalTrial MakeModalTrial(const configuration::RigFile& nominal, const ExcitationPlan& plan,
                           const RigidBodyOff& rigid) {
   Random random(plan.seed);
   const plant::PlantParameters truth = PerturbedRig(nominal.plant, UnknownOf(rigid), {}, random);

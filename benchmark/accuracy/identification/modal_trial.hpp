@@ -34,8 +34,8 @@ struct RigidBodyOff {
   double inertia{0.03};  ///< beside what the mass takes along
 };
 
-[[nodiscard]] ModalTrial MakeModalTrial(const config::RigFile& nominal, const ExcitationPlan& plan,
-                                        const RigidBodyOff& rigid = {});
+[[nodiscard]] ModalTrial MakeModalTrial(const configuration::RigFile& nominal,
+                                        const ExcitationPlan& plan, const RigidBodyOff& rigid = {});
 
 /// Relative errors, entry by entry; only the modes that the fit has.
 struct ModalErrors {

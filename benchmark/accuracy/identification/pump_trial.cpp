@@ -26,8 +26,8 @@ effect::EffectConfig Saturation(const PumpPlan& plan) {
   return iron;
 }
 
-config::RigFile RigOf(const config::RigFile& nominal, const PumpPlan& plan) {
-  config::RigFile rig = nominal;
+configuration::RigFile RigOf(const configuration::RigFile& nominal, const PumpPlan& plan) {
+  configuration::RigFile rig = nominal;
   if (plan.knee_a > 0.0) rig.plant.effects.push_back(Saturation(plan));
   for (std::size_t axis = 0; axis < rig.numbers.axes(); ++axis) {
     const SensorCharacteristic curve = CharacteristicOf(plan, axis);
@@ -40,9 +40,9 @@ config::RigFile RigOf(const config::RigFile& nominal, const PumpPlan& plan) {
   return rig;
 }
 
-scenario::ScenarioConfig ScenarioOf(const config::RigFile& rig, const PumpPlan& plan) {
-  auto scenario = config::LoadScenario(
-      config::FindConfig("turbomolecular_pump_identify", "scenarios"), rig.numbers);
+scenario::ScenarioConfig ScenarioOf(const configuration::RigFile& rig, const PumpPlan& plan) {
+  auto scenario = configuration::LoadScenario(
+      configuration::FindConfig("turbomolecular_pump_identify", "scenarios"), rig.numbers);
   for (scenario::Step& step : scenario.steps) {
     for (scenario::Excitation& excitation : step.excitation) {
       excitation.amplitude_m *= plan.amplitude;
@@ -68,10 +68,10 @@ SensorCharacteristic CharacteristicOf(const PumpPlan& plan, std::size_t axis) {
 
 PumpTrial::PumpTrial(const PumpPlan& plan)
     : plan_(plan),
-      nominal_(config::LoadRig(config::FindConfig("turbomolecular_pump", "rigs"))),
+      nominal_(configuration::LoadRig(configuration::FindConfig("turbomolecular_pump", "rigs"))),
       rig_(RigOf(nominal_, plan)),
-      controller_(config::LoadController(config::FindConfig(rig_.run.controller, "controllers"),
-                                         rig_.numbers)),
+      controller_(configuration::LoadController(
+          configuration::FindConfig(rig_.run.controller, "controllers"), rig_.numbers)),
       scenario_(ScenarioOf(rig_, plan)),
       record_(Record(plan.noise_seed, {})) {
   if (plan.inputs == PumpInputs::kCommanded) return;

@@ -107,8 +107,8 @@ class PumpTrial {
   [[nodiscard]] std::vector<Eigen::VectorXd> Ahead(const Model& model) const;
 
   PumpPlan plan_;
-  config::RigFile nominal_, rig_;
-  config::ControllerFile controller_;
+  configuration::RigFile nominal_, rig_;
+  configuration::ControllerFile controller_;
   scenario::ScenarioConfig scenario_;
   PumpRecord record_;
 };

@@ -13,7 +13,7 @@
 #include "common/rotational_speed.hpp"
 #include "controller/cycle/control_cycle.hpp"
 #include "plant_sim/plant/plant.hpp"
-#include "session/recording.hpp"
+#include "session/exchange/recording.hpp"
 
 namespace levitas::accuracy {
 

@@ -14,9 +14,9 @@ namespace levitas::accuracy {
 namespace {
 
 /// The commissioned controller in the loop.
-cycle::CycleConfig CycleOf(const config::RigFile& rig) {
-  const auto controller = config::LoadController(
-      config::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
+cycle::CycleConfig CycleOf(const configuration::RigFile& rig) {
+  const auto controller = configuration::LoadController(
+      configuration::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
   return {rig.numbers, controller.law, controller.supervisor, controller.synchronous,
           controller.bias};
 }
@@ -38,11 +38,12 @@ long SamplesOf(const ExcitationPlan& plan, double period_s) {
 
 }  // namespace
 
-session::Recording SimulateCampaign(const config::RigFile& rig, const ExcitationPlan& plan) {
+session::Recording SimulateCampaign(const configuration::RigFile& rig, const ExcitationPlan& plan) {
   return SimulateCampaign(rig, plant::Reduce(rig.plant), plan);
 }
 
-session::Recording SimulateCampaign(const config::RigFile& rig, const plant::PlantParameters& truth,
+session::Recording SimulateCampaign(const configuration::RigFile& rig,
+                                    const plant::PlantParameters& truth,
                                     const ExcitationPlan& plan) {
   RecordedBench bench(CycleOf(rig),
                       plant::Plant(std::make_shared<const plant::PlantModel>(truth), plan.seed));

@@ -11,7 +11,7 @@
 #include "configuration/rig_file.hpp"
 #include "controller/scenario/scenario_config.hpp"
 #include "plant_sim/plant/plant_parameters.hpp"
-#include "session/recording.hpp"
+#include "session/exchange/recording.hpp"
 
 namespace levitas::accuracy {
 
@@ -28,10 +28,10 @@ struct ExcitationPlan {
 };
 
 /// The record holds the excited rows only.
-[[nodiscard]] session::Recording SimulateCampaign(const config::RigFile& rig,
+[[nodiscard]] session::Recording SimulateCampaign(const configuration::RigFile& rig,
                                                   const ExcitationPlan& plan);
 /// `truth` is what is simulated; `rig` only gives channels and limits.
-[[nodiscard]] session::Recording SimulateCampaign(const config::RigFile& rig,
+[[nodiscard]] session::Recording SimulateCampaign(const configuration::RigFile& rig,
                                                   const plant::PlantParameters& truth,
                                                   const ExcitationPlan& plan);
 

@@ -68,7 +68,7 @@ void PrintWithin(const std::vector<accuracy::GearedErrors>& errors, double asked
 }
 
 /// Medians of the best that could be made of the same lines.
-void PrintBound(const config::RigFile& rig, const Case& one, const StudyOptions& options,
+void PrintBound(const configuration::RigFile& rig, const Case& one, const StudyOptions& options,
                 nlohmann::ordered_json& json) {
   accuracy::GearedPlan plan = options.plan;
   plan.noise = one.noise;
@@ -84,7 +84,7 @@ void PrintBound(const config::RigFile& rig, const Case& one, const StudyOptions&
   fmt::print("\n");
 }
 
-std::vector<accuracy::GearedErrors> Study(const config::RigFile& rig, const Case& one,
+std::vector<accuracy::GearedErrors> Study(const configuration::RigFile& rig, const Case& one,
                                           const StudyOptions& options) {
   std::vector<accuracy::GearedErrors> all;
   const int seeds = one.noise > 0.0 || one.model_error > 0.0 ? options.seeds : 1;
@@ -107,7 +107,8 @@ ExitStatus Run(const StudyOptions& options) {
   nlohmann::ordered_json json;
   fmt::print("errors in %, of the worse shaft: median over {} seeds (worst)\n", options.seeds);
   for (const char* name : {"geared_rotor_4dof", "geared_rotor_8dof", "geared_rotor_12dof"}) {
-    const config::RigFile rig = config::LoadRig(config::FindConfig(name, "rigs"));
+    const configuration::RigFile rig =
+        configuration::LoadRig(configuration::FindConfig(name, "rigs"));
     fmt::print("{}\n{:<11}", name, "");
     for (const Column& column : kColumns) fmt::print("{:>17}", column.name);
     fmt::print("\n");

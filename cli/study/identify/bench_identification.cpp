@@ -164,7 +164,8 @@ void PrintCoverage(const std::vector<Row>& rows, nlohmann::ordered_json& json) {
 }
 
 ExitStatus Run(const IdentificationBenchOptions& options) {
-  const config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+  const configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
   const double delay_s = rig.plant.delay_samples * rig.numbers.period_s();
   std::vector<Row> rows;
   nlohmann::ordered_json json;

@@ -17,8 +17,8 @@
 #include "identification/probe/probe_characteristic.hpp"
 #include "report/identification/modal_files.hpp"
 #include "rt/say.hpp"
-#include "session/output_path.hpp"
-#include "session/recording.hpp"
+#include "session/exchange/recording.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -149,7 +149,7 @@ nlohmann::ordered_json JsonOf(const CharacteristicOptions& options,
 }
 
 /// The bearing whose probe was measured.
-std::size_t BearingOf(const CharacteristicOptions& options, const config::RigFile& rig) {
+std::size_t BearingOf(const CharacteristicOptions& options, const configuration::RigFile& rig) {
   const auto& channels = rig.numbers.channels;
   const auto at = std::ranges::find(channels, options.channel);
   if (at == channels.end()) {
@@ -162,7 +162,7 @@ std::size_t BearingOf(const CharacteristicOptions& options, const config::RigFil
 }
 
 /// Writes the rig with the points as the curve of the bearing.
-void WriteWithCurve(const std::string& path, config::RigFile rig, std::size_t bearing,
+void WriteWithCurve(const std::string& path, configuration::RigFile rig, std::size_t bearing,
                     const ProbeCharacteristic& found) {
   plant::BearingConfig& config = rig.plant.bearings[bearing];
   config.sensor.characteristic = found.points;
@@ -173,7 +173,7 @@ void WriteWithCurve(const std::string& path, config::RigFile rig, std::size_t be
     fmt::print("; gain {:g} of the file multiplies it", config.sensor.gain);
   }
   fmt::print("\n");
-  WriteRigFile(path, rig);
+  report::WriteRigFile(path, rig);
 }
 
 ExitStatus Run(const CharacteristicOptions& given) {
@@ -188,10 +188,10 @@ ExitStatus Run(const CharacteristicOptions& given) {
   for (const std::string& path : {options.out_path, options.json_path}) {
     session::CheckOutputPath(path, options.table_path);
   }
-  std::optional<config::RigFile> rig;
+  std::optional<configuration::RigFile> rig;
   std::size_t bearing = 0;
   if (!options.out_path.empty()) {
-    rig = config::LoadRig(config::FindConfig(options.rig_name, "rigs"));
+    rig = configuration::LoadRig(configuration::FindConfig(options.rig_name, "rigs"));
     bearing = BearingOf(options, *rig);
   }
   if (session::IsSession(options.table_path)) {

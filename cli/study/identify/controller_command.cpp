@@ -19,7 +19,7 @@
 #include "identification/law/law_record.hpp"
 #include "identification/nonlinear/series.hpp"
 #include "report/identification/law_files.hpp"
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -92,7 +92,7 @@ std::vector<LawSignals> ReadTable(const ControllerOptions& options, double& peri
   return signals;
 }
 
-std::vector<LawFit> FitAll(const ControllerOptions& options, const config::RigFile& rig) {
+std::vector<LawFit> FitAll(const ControllerOptions& options, const configuration::RigFile& rig) {
   LawFitOptions how = options.fit;
   const bool table = IsTable(options.data_path);
   const std::string time = !options.time.empty() ? options.time : table ? "continuous" : "discrete";
@@ -134,7 +134,7 @@ void Print(const LawFit& fit) {
 
 /// The law of the rig in which every axis has what was found.
 law::LawConfig LawOf(const ControllerOptions& options, const std::vector<LawFit>& fits,
-                     const config::RigFile& rig, const law::LawConfig& before) {
+                     const configuration::RigFile& rig, const law::LawConfig& before) {
   law::LawConfig law = before;
   law.axes.clear();
   law.schedule.clear();
@@ -171,21 +171,21 @@ ExitStatus Run(const ControllerOptions& options) {
     throw Problem(ExitStatus::kUsage,
                   "--input-v-per-mm and --output-a-per-v: both, or neither (metres and amperes)");
   }
-  const config::RigFile rig = LoadRig(options);
+  const configuration::RigFile rig = LoadRig(options);
   const std::vector<LawFit> fits = FitAll(options, rig);
   fmt::print("{}: {} controllers, {} time\n", options.data_path, fits.size(),
              fits.front().options.domain == LawDomain::kDiscrete ? "discrete" : "continuous");
   for (const LawFit& fit : fits) Print(fit);
   if (!options.out_path.empty()) {
     const FoundController before = LoadController(options, rig);
-    const config::ControllerFile file{rig.numbers.name + "_identified",
-                                      LawOf(options, fits, rig, before.file.law),
-                                      before.file.supervisor};
+    const configuration::ControllerFile file{rig.numbers.name + "_identified",
+                                             LawOf(options, fits, rig, before.file.law),
+                                             before.file.supervisor};
     WriteControllerFile(options.out_path, "", file, rig.numbers);
     fmt::print("sequence and protection from {}\n", before.path);
   }
-  WriteLawPicture(options.svg_path, fits);
-  WriteJsonFile(options.json_path, LawJson(fits));
+  report::WriteLawPicture(options.svg_path, fits);
+  WriteJsonFile(options.json_path, report::LawJson(fits));
   TellWritten({options.out_path, options.svg_path, options.json_path});
   return ExitStatus::kDone;
 }

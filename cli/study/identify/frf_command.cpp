@@ -16,7 +16,7 @@
 #include "common/rotational_speed.hpp"
 #include "identification/frf/measured_sensitivity.hpp"
 #include "report/identification/response_files.hpp"
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -76,7 +76,7 @@ void Print(const FrequencyResponse& r, double orbit_bound_um) {
 }
 
 /// Computed with the controller that the user names; empty without one.
-std::vector<double> ComputedPeaks(const FrequencyResponse& r, const config::RigFile& rig,
+std::vector<double> ComputedPeaks(const FrequencyResponse& r, const configuration::RigFile& rig,
                                   const std::optional<FoundController>& controller) {
   std::vector<double> peaks;
   if (!controller) return peaks;
@@ -126,7 +126,7 @@ ExitStatus Run(const FrfOptions& options) {
   for (const std::string& path : {options.csv_path, options.svg_path, options.json_path}) {
     session::CheckOutputPath(path, options.data_path);
   }
-  const config::RigFile rig = LoadRigOfRecords(options, {options.data_path});
+  const configuration::RigFile rig = LoadRigOfRecords(options, {options.data_path});
   std::optional<FoundController> controller;
   if (!options.controller_name.empty()) controller = LoadController(options, rig);
   const auto record = session::LoadRecording(options.data_path, rig);
@@ -142,13 +142,13 @@ ExitStatus Run(const FrfOptions& options) {
     Print(r, options.orbit_bound_um);
     PrintSensitivity(r, ComputedPeaks(r, rig, controller));
   }
-  WriteResponseCsv(options.csv_path, responses);
+  report::WriteResponseCsv(options.csv_path, responses);
   const auto nearest = std::ranges::min_element(responses, {}, [&](const auto& r) {
     return std::abs(RadPerSToRpm(r.speed_rad_per_s) - options.picture_rpm);
   });
-  WriteBode(options.svg_path, *nearest);
+  report::WriteBode(options.svg_path, *nearest);
   nlohmann::ordered_json json{{"data", options.data_path}, {"rig", rig.numbers.name}};
-  for (const auto& r : responses) json["responses"].push_back(ResponseJson(r));
+  for (const auto& r : responses) json["responses"].push_back(report::ResponseJson(r));
   WriteJsonFile(options.json_path, json);
   TellWritten({options.csv_path, options.svg_path, options.json_path});
   RefuseWideOrbits(responses, options.orbit_bound_um);

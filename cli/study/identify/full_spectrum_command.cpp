@@ -22,7 +22,7 @@
 #include "identification/identified_rig.hpp"
 #include "report/identification/geared_files.hpp"
 #include "report/identification/modal_files.hpp"
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -78,8 +78,8 @@ void Print(const SpectrumOptions& options, const std::vector<GearedLine>& lines,
                2e6 * e.sigma, std::arg(e.amplitude_m));
   }
   fmt::print("\ncondition number {:.1f}\n", p.condition);
-  if (p.pinion.plane) fmt::print("{}", ProbePlaneText("pinion", *p.pinion.plane));
-  if (p.gear.plane) fmt::print("{}", ProbePlaneText("gear", *p.gear.plane));
+  if (p.pinion.plane) fmt::print("{}", report::ProbePlaneText("pinion", *p.pinion.plane));
+  if (p.gear.plane) fmt::print("{}", report::ProbePlaneText("gear", *p.gear.plane));
   fmt::print(
       "shaft stiffness and ks show only as their difference ({:.0f} and {:.0f} N/m): an error of "
       "the one is that of the other;\n    experiment: record at a second bias current, ks goes "
@@ -96,7 +96,7 @@ void Print(const SpectrumOptions& options, const std::vector<GearedLine>& lines,
 
 /// Empty without gauges, as of a file that is no session.
 HalfSpectrum Torsion(const std::optional<session::Recording>& record, const std::string& path,
-                     const config::RigFile& rig, const std::vector<GearedLine>& lines,
+                     const configuration::RigFile& rig, const std::vector<GearedLine>& lines,
                      const GearedParameters& found) {
   if (!record || !session::IsSession(path)) return {};
   const session::TorsionRecording torsion = session::LoadTorsion(path);
@@ -148,7 +148,7 @@ ExitStatus Run(const SpectrumOptions& options) {
   for (const std::string& path : {options.out_path, options.json_path, options.svg_path}) {
     session::CheckOutputPath(path, options.data_path);
   }
-  const config::RigFile rig = LoadRigOfRecords(options, {options.data_path});
+  const configuration::RigFile rig = LoadRigOfRecords(options, {options.data_path});
   GearedKnown known = KnownOfRig(rig);
   known.uncertainty = 0.01 * options.known_percent;
   std::optional<session::Recording> record;
@@ -158,11 +158,11 @@ ExitStatus Run(const SpectrumOptions& options) {
   Print(options, lines, known, found);
   const HalfSpectrum half = Torsion(record, options.data_path, rig, lines, found);
   PrintTorsion(half);
-  auto json = GearedJson(found);
-  json["torsion"] = TorsionJson(half);
+  auto json = report::GearedJson(found);
+  json["torsion"] = report::TorsionJson(half);
   WriteJsonFile(options.json_path, json);
-  WriteGearedPicture(options.svg_path, lines, half);
-  if (!options.out_path.empty()) WriteRigFile(options.out_path, IdentifiedRig(rig, found));
+  report::WriteGearedPicture(options.svg_path, lines, half);
+  if (!options.out_path.empty()) report::WriteRigFile(options.out_path, IdentifiedRig(rig, found));
   TellWritten({options.out_path, options.json_path, options.svg_path});
   return ExitStatus::kDone;
 }

@@ -80,7 +80,7 @@ void PrintAxes(const LiveIdentification& live) {
   const HammersteinWienerModel& model = *live.recursion()->model();
   const auto& newest = live.recursion()->newest();
   const std::vector<InputCurve> curves = Curves(model);
-  TextTable table;
+  report::TextTable table;
   table.Add({"axis", "error um", "fit %", "curve of the current, i in A", "share %"});
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const auto axis = static_cast<Eigen::Index>(i);

@@ -25,7 +25,7 @@
 #include "identification/modal/modal_starts.hpp"
 #include "report/identification/modal_files.hpp"
 #include "report/identification/response_files.hpp"
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -117,7 +117,7 @@ double StaticCurrent(const session::Recording& record, std::size_t axis) {
 
 /// A current that carries weight stiffens its magnet: dF/dx = 4 k (i0^2 + i^2) / s0^3 of two coils
 /// in differential driving mode. A rig file states it without.
-void PrintStaticShare(const config::RigFile& rig, const session::Recording& record,
+void PrintStaticShare(const configuration::RigFile& rig, const session::Recording& record,
                       const ModalResult& r) {
   constexpr double kSeen = 0.01;
   std::vector<std::string> axes;
@@ -240,7 +240,7 @@ ExitStatus Run(const ModalOptions& options) {
   for (const std::string& path : {options.out_path, options.json_path}) {
     session::CheckOutputPath(path, options.data_path);
   }
-  const config::RigFile rig = LoadRigOfRecords(options, {options.data_path});
+  const configuration::RigFile rig = LoadRigOfRecords(options, {options.data_path});
   const auto record = session::LoadRecording(options.data_path, rig);
   const double delay_s = rig.plant.delay_samples * rig.numbers.period_s();
   const auto responses = EstimateResponses(record, delay_s, {}, ModalResponseOptions(rig));
@@ -256,17 +256,18 @@ ExitStatus Run(const ModalOptions& options) {
   PrintSupport(result);
   PrintLimits(result);
   PrintStarts(result, responses, options);
-  auto json = ModalJson(result);
+  auto json = report::ModalJson(result);
   if (options.decibel_cost) {
     const DecibelFit decibels = FitDecibels(result, responses);
     PrintDecibelFit(result, decibels);
-    json["decibel_cost"] = DecibelJson(result, decibels);
+    json["decibel_cost"] = report::DecibelJson(result, decibels);
   }
   WriteJsonFile(options.json_path, json);
-  std::vector<std::string> written = WriteModalPictures(options.svg_prefix, result, responses);
+  std::vector<std::string> written =
+      report::WriteModalPictures(options.svg_prefix, result, responses);
   if (!options.out_path.empty()) {
     const RotorForm form = options.rotor == "shaft" ? RotorForm::kShaft : RotorForm::kModes;
-    WriteRigFile(options.out_path, IdentifiedRig(rig, result, form));
+    report::WriteRigFile(options.out_path, IdentifiedRig(rig, result, form));
   }
   written.insert(written.begin(), {options.out_path, options.json_path});
   TellWritten(written);

@@ -19,7 +19,7 @@
 #include "identification/nonlinear/loop_record.hpp"
 #include "identification/nonlinear/suspended_rotor_fit.hpp"
 #include "plant_sim/plant/plant_model.hpp"
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -90,8 +90,8 @@ void PrintModel(const SuspendedRotor& model, const Series& series, nlohmann::ord
 
 ExitStatus Run(const CommandOptions& given) {
   session::CheckOutputPath(given.json_path, given.data_path);
-  const config::RigFile rig = LoadRigOfRecords(given, {given.data_path});
-  const config::ControllerFile controller = LoadController(given, rig).file;
+  const configuration::RigFile rig = LoadRigOfRecords(given, {given.data_path});
+  const configuration::ControllerFile controller = LoadController(given, rig).file;
   SuspendedRotor start = DesignOf(plant::Reduce(rig.plant), given.iron);
   const auto sensors = SensorsOf(given.sensors, start.axes());
   if (!sensors.empty()) start.sensor = sensors;

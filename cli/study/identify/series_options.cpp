@@ -9,7 +9,7 @@
 #include "cli/options/rig_of_records.hpp"
 #include "common/problem.hpp"
 #include "report/svg/figure.hpp"
-#include "session/output_path.hpp"
+#include "session/log/output_path.hpp"
 
 namespace levitas::cli {
 namespace {

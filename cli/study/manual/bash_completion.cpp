@@ -17,7 +17,7 @@ std::string ValuesOf(const OptionText& option) {
   if (!option.allowed.empty()) return Joined(option.allowed);
   for (const auto& [name, kind] : {std::pair{"--rig", "rigs"}, std::pair{"--scenario", "scenarios"},
                                    std::pair{"--controller", "controllers"}}) {
-    if (option.name == name) return "<files> " + Joined(config::ShippedNames(kind));
+    if (option.name == name) return "<files> " + Joined(configuration::ShippedNames(kind));
   }
   return "<files>";
 }

@@ -10,7 +10,7 @@
 #include "configuration/text/documenter.hpp"
 #include "tests/support/paths.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 std::string Committed() {
@@ -87,4 +87,4 @@ TEST(ConfigurationDocument, HasNoEmptyMeaning) {
 }
 
 }  // namespace
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -40,7 +40,11 @@ class Files(unittest.TestCase):
 
     def test_no_retired_word_comes_back(self):
         found = violations(rules.retired_words, (".cpp", ".hpp", ".md"))
-        self.assert_none([line for line in found if not line.startswith("docs/conventions.md")])
+        # The glossary explains them, the changelog says what was renamed, and one function writes
+        # keys of version 1.0, which scripts still read.
+        allowed = ("docs/conventions.md", "docs/formats.md", "CHANGELOG.md",
+                   "report/diagnosis/old_keys.")
+        self.assert_none([line for line in found if not line.startswith(allowed)])
 
     def test_every_test_asserts_something(self):
         self.assert_none(violations(rules.tests_without_assertion, (".cpp",)))
@@ -142,7 +146,11 @@ class SeededViolations(unittest.TestCase):
     def test_a_retired_word_is_refused_with_the_fields_own(self):
         self.assertEqual(rules.retired_words("gain\n// data Kept back\n"),
                          ["line 2: 'Kept back': say validation data"])
-        self.assertFalse(rules.retired_words("std::remainder(a, b)"))
+        for name in ("kKeptBack", "KeptBack()", "held_out_nat", "HuntCauses", "Part::kHeldOut",
+                     "sharpened", "ExplainStrays"):
+            self.assertTrue(rules.retired_words(name), name)
+        for name in ("std::remainder(a, b)", "shunt", "HeldCurrents", "out_held", "Sharp", "astray"):
+            self.assertFalse(rules.retired_words(name), name)
 
     def test_a_subject_of_73_characters_or_without_a_reason_is_refused(self):
         self.assertTrue(rules.refused_message("a" * 73, "why"))

@@ -26,7 +26,7 @@ EXCEPTIONS = (
     ("tests/support/two_machines.py", "time.sleep(0.002)", "the pace of a sender, judged by nobody"),
     ("tests/build/launcher/launcher_test.py", "subprocess.Popen(",
      "two ./amb at once: both are read to their end by communicate()"),
-    ("tests/unit/session/kill_test.cpp", "sleep_until(", "the pace of the child that records"),
+    ("tests/unit/session/log/kill_test.cpp", "sleep_until(", "the pace of the child that records"),
     ("tests/unit/run/supervise_test.cpp", "sleep_for(", "the pace of invented telemetry"),
     ("tests/unit/run/child_process_test.cpp", "WaitFor(milliseconds(20))",
      "a child that does not end is not waited for"),

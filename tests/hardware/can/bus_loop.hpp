@@ -26,7 +26,7 @@ class BusLoop {
   /// `orbit_fraction` of the clearance, beyond which it trips; 0: that of the shipped controller.
   explicit BusLoop(const std::string& port, const std::string& controller_port = "",
                    double orbit_fraction = 0.0)
-      : rig_file_(config::LoadRig(config::FindConfig("flexible_rotor", "rigs"))),
+      : rig_file_(configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"))),
         plan_(
             socketcan::PlanConnection(rig_file_.numbers, rig_file_.buses, "flexible_rotor", port)),
         controller_plan_(
@@ -87,13 +87,14 @@ class BusLoop {
   std::uint64_t cycles{0};
 
  private:
-  static cycle::CycleConfig CycleOf(const config::RigFile& rig, double orbit_fraction) {
-    auto controller = config::LoadController(
-        config::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
+  static cycle::CycleConfig CycleOf(const configuration::RigFile& rig, double orbit_fraction) {
+    auto controller = configuration::LoadController(
+        configuration::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
     if (orbit_fraction > 0.0) controller.supervisor.protection.orbit_fraction = orbit_fraction;
     return {rig.numbers, controller.law, controller.supervisor};
   }
-  static plant::PlantConfig Delayed(config::RigFile rig, const socketcan::CanConnection& plan) {
+  static plant::PlantConfig Delayed(configuration::RigFile rig,
+                                    const socketcan::CanConnection& plan) {
     rig.plant.delay_samples =
         socketcan::DelayOnBuses(rig.plant.delay_samples, rig.numbers, plan.budget);
     return rig.plant;
@@ -109,7 +110,7 @@ class BusLoop {
     command_ = plant::CommandOf(current);
   }
 
-  config::RigFile rig_file_;
+  configuration::RigFile rig_file_;
   socketcan::CanConnection plan_;
   socketcan::CanConnection controller_plan_;
   socketcan::SocketCan rig_bus_;

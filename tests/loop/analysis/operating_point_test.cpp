@@ -57,9 +57,9 @@ TEST(OperatingPoint, StiffensTheMagnetWithTheSquareOfItsStaticCurrent) {
 
 // Without an integrator the rotor sags until law and magnet carry it: F(ic0, x0) = m g, ic = -Kp x.
 TEST(OperatingPoint, SagsWithoutIntegratorToWhereTheTrueForceCarriesTheLoad) {
-  const auto rig = config::LoadRig(config::FindConfig("one_axis", "rigs"));
-  auto controller =
-      config::LoadController(config::FindConfig("one_axis", "controllers"), rig.numbers);
+  const auto rig = configuration::LoadRig(configuration::FindConfig("one_axis", "rigs"));
+  auto controller = configuration::LoadController(
+      configuration::FindConfig("one_axis", "controllers"), rig.numbers);
   controller.law.axes[0].ki_a_per_m_s = 0.0;
   const auto poles = ClosedLoopPoles(rig.plant, controller.law, 0.0);
   ASSERT_EQ(poles.point.failure, "");
@@ -76,9 +76,9 @@ TEST(OperatingPoint, SagsWithoutIntegratorToWhereTheTrueForceCarriesTheLoad) {
 }
 
 TEST(OperatingPoint, NamesTheAxisWhoseMagnetsCannotCarryTheLoad) {
-  auto rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
-  const auto controller = config::LoadController(
-      config::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
+  auto rig = configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
+  const auto controller = configuration::LoadController(
+      configuration::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
   // 2.33 kg on two bearings whose axes stand at 45 degrees: 40 N at 1 A would be passed.
   rig.plant.gravity_m_per_s2 = 60.0;
   const auto result = SensitivityPeaks(rig.plant, controller.law, 0.0);
@@ -154,9 +154,10 @@ class LoadedRotor : public testing::TestWithParam<std::tuple<double, double>> {}
 TEST_P(LoadedRotor, MeasuresTheSensitivityThatWasComputed) {
   const auto [gravity, speed_rpm] = GetParam();
   const double speed = RpmToRadPerS(speed_rpm);
-  config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
-  const auto controller = config::LoadController(
-      config::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
+  configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
+  const auto controller = configuration::LoadController(
+      configuration::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
   rig.plant.gravity_m_per_s2 = gravity;
   rig.plant.unbalance.clear();
   for (auto& bearing : rig.plant.bearings) {

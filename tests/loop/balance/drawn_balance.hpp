@@ -43,7 +43,7 @@ inline Response ResponseOf(const session::Recording& record) {
   return made;
 }
 
-inline Response Quiet(const config::RigFile& rig) {
+inline Response Quiet(const configuration::RigFile& rig) {
   return ResponseOf(RecordRunUp(WithQuietProbes(rig), {.seed = 77}));
 }
 
@@ -51,14 +51,14 @@ inline std::complex<double> MomentOf(const plant::UnbalanceMass& mass) {
   return std::polar(mass.moment_kg_m, mass.phase_rad);
 }
 
-inline double StaticPerMass(const config::RigFile& rig, double mass_kg) {
+inline double StaticPerMass(const configuration::RigFile& rig, double mass_kg) {
   std::complex<double> sum = 0.0;
   for (const auto& mass : rig.plant.unbalance) sum += MomentOf(mass);
   return 1e6 * std::abs(sum) / mass_kg;
 }
 
 /// The true rig with what a balancing adds.
-inline config::RigFile Corrected(config::RigFile rig, const BalanceResult& result) {
+inline configuration::RigFile Corrected(configuration::RigFile rig, const BalanceResult& result) {
   for (std::size_t i = 0; i < result.corrections.size(); ++i) {
     const auto left = MomentOf(rig.plant.unbalance[i]) + result.corrections[i].added_kg_m;
     rig.plant.unbalance[i].moment_kg_m = std::abs(left);
@@ -77,7 +77,8 @@ inline BalanceRequest RequestOf(const session::Recording& first) {
   return request;
 }
 
-inline void JudgeWeights(const config::RigFile& truth, const BalanceResult& found, Outcome& out) {
+inline void JudgeWeights(const configuration::RigFile& truth, const BalanceResult& found,
+                         Outcome& out) {
   for (std::size_t i = 0; i < found.corrections.size(); ++i) {
     const CorrectionResult& one = found.corrections[i];
     const std::complex<double> wanted = -MomentOf(truth.plant.unbalance[i]);
@@ -90,14 +91,14 @@ inline void JudgeWeights(const config::RigFile& truth, const BalanceResult& foun
   }
 }
 
-inline Outcome BalanceDrawnRig(const config::RigFile& truth, std::uint64_t seed) {
+inline Outcome BalanceDrawnRig(const configuration::RigFile& truth, std::uint64_t seed) {
   const session::Recording first = RecordRunUp(truth, {.seed = seed});
   BalanceRequest request = RequestOf(first);
   const BalanceResult found = Balance(request);
   Outcome out;
   out.chi_square = found.fit.reduced_chi_square;
   JudgeWeights(truth, found, out);
-  const config::RigFile corrected = Corrected(truth, found);
+  const configuration::RigFile corrected = Corrected(truth, found);
   const Response before = Quiet(truth);
   const Response after = Quiet(corrected);
   out.before_peak_m = before.peak_m;
@@ -110,7 +111,7 @@ inline Outcome BalanceDrawnRig(const config::RigFile& truth, std::uint64_t seed)
   for (const CorrectionResult& one : found.corrections) {
     request.runs.back().applied.push_back({one.plane.name, one.added_kg_m});
   }
-  const config::RigFile again = Corrected(corrected, Balance(request));
+  const configuration::RigFile again = Corrected(corrected, Balance(request));
   const Response last = Quiet(again);
   out.second_rms_percent = 100.0 * last.rms_m / before.rms_m;
   out.second_peak_percent = 100.0 * last.peak_m / before.peak_m;

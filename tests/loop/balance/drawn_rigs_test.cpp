@@ -15,7 +15,7 @@ TEST(DrawnRigs, OneRunUpIsEnough) {
 // The law answers the probes' noise, so that positions and currents share it. Where that pulls the
 // fit, weights come out too large or too small whatever the noise, and one more draw is no luck.
 TEST(DrawnRigs, NoiseThatTheLawAnswersDoesNotPullTheWeights) {
-  const config::RigFile truth = DrawRig(3);
+  const configuration::RigFile truth = DrawRig(3);
   const Response before = Quiet(truth);
   for (const std::uint64_t noise : {5001U, 5002U, 5003U}) {
     const BalanceResult found = Balance(RequestOf(RecordRunUp(truth, {.seed = noise})));
@@ -25,9 +25,9 @@ TEST(DrawnRigs, NoiseThatTheLawAnswersDoesNotPullTheWeights) {
 
 // The other half of the pair: without the unknowns of the rig the same records lead further off.
 TEST(DrawnRigs, ARigFileTakenAtItsWordLeavesMore) {
-  const config::RigFile truth = DrawRig(1);
+  const configuration::RigFile truth = DrawRig(1);
   BalanceRequest request = RequestOf(RecordRunUp(truth, {.seed = 1}));
-  config::Tolerances& by = request.rig.tolerances.emplace();
+  configuration::Tolerances& by = request.rig.tolerances.emplace();
   by.current_gain = by.displacement_stiffness = by.modal_frequency = by.modal_damping = 1e-4;
   by.sensor_gain = by.rotor_mass = by.amplifier_bandwidth = by.sensor_bandwidth = 1e-4;
   by.delay_samples = by.gyroscopic_inertia = 1e-4;
@@ -37,7 +37,7 @@ TEST(DrawnRigs, ARigFileTakenAtItsWordLeavesMore) {
 }
 
 TEST(DrawnRigs, WithoutAKnownLawTheRecordShowsIt) {
-  const config::RigFile truth = DrawRig(2);
+  const configuration::RigFile truth = DrawRig(2);
   BalanceRequest request = RequestOf(RecordRunUp(truth, {.seed = 2}));
   const BalanceResult with = Balance(request);
   request.law.reset();
@@ -57,7 +57,7 @@ TEST(DrawnRigs, WithoutAKnownLawTheRecordShowsIt) {
 // A slip of the pen in --applied: no rig within reach explains both runs, and the fit says so
 // instead of seeking one that cannot be built.
 TEST(DrawnRigs, WeightsThatWereNotPutThereLeaveWhatNoRigExplains) {
-  const config::RigFile truth = DrawRig(2);
+  const configuration::RigFile truth = DrawRig(2);
   const session::Recording record = RecordRunUp(truth, {.seed = 2});
   BalanceRequest request = RequestOf(record);
   request.runs.push_back(ReadRun(record, request.rig));
@@ -68,10 +68,10 @@ TEST(DrawnRigs, WeightsThatWereNotPutThereLeaveWhatNoRigExplains) {
 }
 
 TEST(DrawnRigs, TheForecastIsWhatTheNextRunShows) {
-  const config::RigFile truth = DrawRig(3);
+  const configuration::RigFile truth = DrawRig(3);
   const BalanceRequest request = RequestOf(RecordRunUp(truth, {.seed = 3}));
   const BalanceResult found = Balance(request);
-  config::RigFile half = truth;
+  configuration::RigFile half = truth;
   // Half of the correction leaves orbits that stand out of the noise.
   for (std::size_t i = 0; i < found.corrections.size(); ++i) {
     const auto left = MomentOf(half.plant.unbalance[i]) + 0.5 * found.corrections[i].added_kg_m;

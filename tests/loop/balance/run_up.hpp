@@ -13,25 +13,27 @@
 #include "controller/cycle/control_cycle.hpp"
 #include "design/drawn_rigs/rig_uncertainty.hpp"
 #include "plant_sim/plant/plant.hpp"
-#include "session/recording.hpp"
+#include "session/exchange/recording.hpp"
 #include "tests/support/modes_within.hpp"
 
 namespace levitas::balancing {
 
-inline const config::RigFile& FlexibleRotor() {
-  static const config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+inline const configuration::RigFile& FlexibleRotor() {
+  static const configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
   return rig;
 }
 
-inline const config::ControllerFile& ShippedController() {
-  static const config::ControllerFile file = config::LoadController(
-      config::FindConfig("flexible_rotor_commissioned", "controllers"), FlexibleRotor().numbers);
+inline const configuration::ControllerFile& ShippedController() {
+  static const configuration::ControllerFile file = configuration::LoadController(
+      configuration::FindConfig("flexible_rotor_commissioned", "controllers"),
+      FlexibleRotor().numbers);
   return file;
 }
 
 /// The rig with probes that add no run-out and next to no noise (none at all counts as a probe that
 /// hangs), to see what the rotor does.
-inline config::RigFile WithQuietProbes(config::RigFile rig) {
+inline configuration::RigFile WithQuietProbes(configuration::RigFile rig) {
   for (auto& bearing : rig.plant.bearings) bearing.sensor.noise_rms_m = 0.05e-6;
   std::erase_if(rig.plant.effects, [](const effect::EffectConfig& entry) {
     return entry.id == effect::Id::kSensorRunout;
@@ -46,8 +48,8 @@ struct RunUpPlan {
 };
 
 /// The record of a run-up from standing to the top speed.
-inline session::Recording RecordRunUp(const config::RigFile& rig, const RunUpPlan& plan) {
-  const config::ControllerFile& controller = ShippedController();
+inline session::Recording RecordRunUp(const configuration::RigFile& rig, const RunUpPlan& plan) {
+  const configuration::ControllerFile& controller = ShippedController();
   accuracy::RecordedBench bench({rig.numbers, controller.law, controller.supervisor},
                                 plant::Plant(rig.plant, plan.seed));
   bench.record.name = "simulated run-up";
@@ -67,11 +69,11 @@ inline session::Recording RecordRunUp(const config::RigFile& rig, const RunUpPla
 
 /// A rig as it may be behind flexible_rotor.yaml: ki and ks of every axis within 10 %, frequencies
 /// of the modes within 3 %, damping within 50 %, unbalance of any direction at the three planes.
-inline config::RigFile DrawRig(std::uint64_t seed) {
+inline configuration::RigFile DrawRig(std::uint64_t seed) {
   Random draw(seed);
   const auto parameters =
       test::ModesWithin(0.03, uncertainty::Stated(FlexibleRotor(), {0.0, 0.5, 0.1, 0.1, 6}));
-  config::RigFile rig =
+  configuration::RigFile rig =
       uncertainty::At(FlexibleRotor(), parameters, uncertainty::DrawPlace(draw, parameters.size()));
   for (plant::UnbalanceMass& mass : rig.plant.unbalance) {
     mass.moment_kg_m = (3.0 + 12.0 * draw.Uniform()) * 1e-6;

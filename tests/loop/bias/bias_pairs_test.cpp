@@ -11,14 +11,14 @@
 namespace levitas::test {
 namespace {
 
-const config::RigFile& Pump() {
-  static const config::RigFile rig =
-      config::LoadRig(SourceFolder() + "/config/rigs/turbomolecular_pump.yaml");
+const configuration::RigFile& Pump() {
+  static const configuration::RigFile rig =
+      configuration::LoadRig(SourceFolder() + "/config/rigs/turbomolecular_pump.yaml");
   return rig;
 }
 
 cycle::CycleConfig Plain() {
-  const config::ControllerFile controller = config::LoadController(
+  const configuration::ControllerFile controller = configuration::LoadController(
       SourceFolder() + "/config/controllers/turbomolecular_pump.yaml", Pump().numbers);
   return {Pump().numbers, controller.law, controller.supervisor};
 }

@@ -26,7 +26,7 @@ class CanLoop {
   static constexpr std::uint32_t kWatchdogPeriods = 20;  // of amb-rig
 
   CanLoop()
-      : rig_(config::LoadRig(SourceFolder() + "/config/rigs/flexible_rotor.yaml")),
+      : rig_(configuration::LoadRig(SourceFolder() + "/config/rigs/flexible_rotor.yaml")),
         plan_(socketcan::PlanConnection(rig_.numbers, rig_.buses, "flexible_rotor", "can:vcan0",
                                         [](const std::string&) { return true; })),
         link_(plan_.layout, plan_.buses, rig_bus),
@@ -107,12 +107,13 @@ class CanLoop {
  private:
   static constexpr double kStandstillRpm = 5.0;  // of the controller file
 
-  static cycle::CycleConfig CycleOf(const config::RigFile& rig) {
-    const auto controller = config::LoadController(
+  static cycle::CycleConfig CycleOf(const configuration::RigFile& rig) {
+    const auto controller = configuration::LoadController(
         SourceFolder() + "/config/controllers/flexible_rotor_commissioned.yaml", rig.numbers);
     return {rig.numbers, controller.law, controller.supervisor};
   }
-  static plant::PlantConfig Delayed(config::RigFile rig, const socketcan::CanConnection& plan) {
+  static plant::PlantConfig Delayed(configuration::RigFile rig,
+                                    const socketcan::CanConnection& plan) {
     rig.plant.delay_samples =
         socketcan::DelayOnBuses(rig.plant.delay_samples, rig.numbers, plan.budget);
     return rig.plant;
@@ -129,7 +130,7 @@ class CanLoop {
     command_ = plant::CommandOf(current);
   }
 
-  config::RigFile rig_;
+  configuration::RigFile rig_;
   socketcan::CanConnection plan_;
   can_port::CanRigLink link_;
   can_port::CanRigPort port_;

@@ -22,8 +22,8 @@
 namespace levitas::design {
 namespace {
 
-config::RigFile FlexibleRotor() {
-  return config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+configuration::RigFile FlexibleRotor() {
+  return configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
 }
 
 /// First moment over mass of sections and discs as the rig file gives them.
@@ -90,9 +90,9 @@ TEST(TranslationAndTilt, DrivesAForceWithoutAMomentAndAMomentWithoutAForce) {
 
 TEST(TranslationAndTilt, AreRefusedForAnotherRig) {
   for (const char* name : {"geared_rotor_4dof", "one_axis"})
-    EXPECT_THROW(
-        static_cast<void>(TranslationAndTilt(config::LoadRig(config::FindConfig(name, "rigs")))),
-        Problem)
+    EXPECT_THROW(static_cast<void>(TranslationAndTilt(
+                     configuration::LoadRig(configuration::FindConfig(name, "rigs")))),
+                 Problem)
         << name;
   auto overhung = FlexibleRotor();
   overhung.plant.rotor.discs.push_back({0.0, 500.0, 1.0, 1.0});
@@ -100,7 +100,7 @@ TEST(TranslationAndTilt, AreRefusedForAnotherRig) {
 }
 
 /// Gains and filters drawn around what levitates, of translation and of tilt.
-law::LawConfig Drawn(const config::RigFile& rig, Random& draw) {
+law::LawConfig Drawn(const configuration::RigFile& rig, Random& draw) {
   LawShape shape;
   shape.bearings = 2;
   shape.axes = 4;

@@ -11,10 +11,11 @@ namespace levitas::design {
 namespace {
 
 struct Files {
-  config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+  configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
   law::LawConfig law =
-      config::LoadController(config::FindConfig("flexible_rotor_commissioned", "controllers"),
-                             rig.numbers)
+      configuration::LoadController(
+          configuration::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers)
           .law;
 };
 
@@ -59,8 +60,8 @@ TEST(DesignGate, WritesALostRigThatLoadsAgain) {
   for (auto& axis : files.law.axes) axis.kp_a_per_m *= 0.4;
   const GateResult result = JudgeQuietly(files, files.law, Quick());
   ASSERT_TRUE(result.worst.has_value());
-  const std::string text = config::WriteRig(*result.worst);
-  EXPECT_EQ(config::WriteRig(config::ParseRig(text, "worst.yaml")), text);
+  const std::string text = configuration::WriteRig(*result.worst);
+  EXPECT_EQ(configuration::WriteRig(configuration::ParseRig(text, "worst.yaml")), text);
 }
 
 TEST(DesignGate, RefusesByEachLimitAlone) {

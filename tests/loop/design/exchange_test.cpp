@@ -127,7 +127,7 @@ law::LawConfig OfRestOnly() {
 /// The lowest speed from which on the law does not hold the rig, to 0.01 rad/s.
 double HoldsTo(const law::LawConfig& law) {
   constexpr double kStep = 3.0;
-  const config::RigFile rig = Shipped().rig;
+  const configuration::RigFile rig = Shipped().rig;
   double loses = 0.0;
   while (analysis::SensitivityPeaks(rig.plant, law, loses).stable) loses += kStep;
   double holds = loses - kStep;

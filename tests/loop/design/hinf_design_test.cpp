@@ -13,8 +13,9 @@
 namespace levitas::hinf {
 namespace {
 
-const config::RigFile& Shipped() {
-  static const config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+const configuration::RigFile& Shipped() {
+  static const configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
   return rig;
 }
 

@@ -14,8 +14,8 @@
 namespace levitas::design {
 namespace {
 
-config::RigFile ShippedRig(const std::string& name) {
-  return config::LoadRig(config::FindConfig(name, "rigs"));
+configuration::RigFile ShippedRig(const std::string& name) {
+  return configuration::LoadRig(configuration::FindConfig(name, "rigs"));
 }
 
 std::vector<law::DiscreteLaw> AsTheyRun(const law::LawConfig& law) {
@@ -25,7 +25,7 @@ std::vector<law::DiscreteLaw> AsTheyRun(const law::LawConfig& law) {
 }
 
 /// Gains and filters drawn widely around what levitates: about half of the loops are unstable.
-law::LawConfig Drawn(const config::RigFile& rig, const SampledPlant& plant, Random& draw) {
+law::LawConfig Drawn(const configuration::RigFile& rig, const SampledPlant& plant, Random& draw) {
   LawShape shape;
   shape.bearings = rig.plant.bearings.size();
   shape.axes = rig.numbers.axes();
@@ -45,7 +45,7 @@ law::LawConfig Drawn(const config::RigFile& rig, const SampledPlant& plant, Rand
   return LawAt(shape, x);
 }
 
-double LeastDamping(const config::RigFile& rig, const law::LawConfig& law, double speed) {
+double LeastDamping(const configuration::RigFile& rig, const law::LawConfig& law, double speed) {
   double least = 1.0;
   for (const auto& pole : analysis::ClosedLoopPoles(rig.plant, law, speed).poles) {
     const double hz = std::abs(pole.frequency_hz);
@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(Shipped, SurveyOfARig,
 
 /// A disc in the middle of a plain shaft between like bearings: its shift is the same in x and y at
 /// every speed, and so are two pairs of poles.
-config::RigFile SameInTwoDirections() {
+configuration::RigFile SameInTwoDirections() {
   auto rig = ShippedRig("flexible_rotor");
   rotor::RotorConfig& rotor = rig.plant.rotor;
   rotor.sections = {{0.3, 0.066, 0.0}};
@@ -124,8 +124,10 @@ TEST(SampledPlantOfOneAxis, IsTheMassOnItsNegativeSpring) {
 TEST(SurveyOfNoise, DoublesWithTheNoiseAndVanishesWithoutIt) {
   const auto rig = ShippedRig("flexible_rotor");
   const SampledPlant plant(rig, 0.0);
-  const auto laws = AsTheyRun(
-      config::LoadController(config::FindConfig("flexible_rotor", "controllers"), rig.numbers).law);
+  const auto laws =
+      AsTheyRun(configuration::LoadController(
+                    configuration::FindConfig("flexible_rotor", "controllers"), rig.numbers)
+                    .law);
   const auto one = Survey(plant, laws, std::vector<double>(4, 1e-6));
   const auto two = Survey(plant, laws, std::vector<double>(4, 2e-6));
   const auto none = Survey(plant, laws, std::vector<double>(4, 0.0));

@@ -13,8 +13,8 @@
 namespace levitas::design {
 namespace {
 
-config::RigFile Rig(const std::string& name) {
-  return config::LoadRig(config::FindConfig(name, "rigs"));
+configuration::RigFile Rig(const std::string& name) {
+  return configuration::LoadRig(configuration::FindConfig(name, "rigs"));
 }
 
 constexpr double kLimitA = 1.0;  // of both shipped rigs used here: the bias
@@ -27,13 +27,13 @@ PidSearchOptions Quick(std::size_t evaluations) {
   return options;
 }
 
-PidSearchResult Designed(const config::RigFile& rig, const PidLimits& limits,
+PidSearchResult Designed(const configuration::RigFile& rig, const PidLimits& limits,
                          const PidSearchOptions& options) {
   return SearchPid(rig, limits, uncertainty::Stated(rig, {}), options,
                    [](double, const std::string&) { return true; });
 }
 
-double LargestPeak(const config::RigFile& rig, const law::LawConfig& law, double speed) {
+double LargestPeak(const configuration::RigFile& rig, const law::LawConfig& law, double speed) {
   double peak = 0.0;
   for (const auto& axis : analysis::SensitivityPeaks(rig.plant, law, speed).axes)
     peak = std::max(peak, axis.peak);

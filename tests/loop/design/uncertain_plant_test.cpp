@@ -16,9 +16,10 @@ namespace levitas::uncertainty {
 namespace {
 
 struct Shipped {
-  config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
-  config::ControllerFile controller = config::LoadController(
-      config::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
+  configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
+  configuration::ControllerFile controller = configuration::LoadController(
+      configuration::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
 };
 
 const Shipped& Files() {
@@ -29,7 +30,7 @@ const Shipped& Files() {
 TEST(UncertainPlant, IsTheSampledPlantWhereImagesAreSmall) {
   // The sampled model is exact; this one leaves out images above 5 kHz, where the plant is 1e-4 of
   // what it is below 300 Hz.
-  config::RigFile unloaded = Files().rig;
+  configuration::RigFile unloaded = Files().rig;
   unloaded.plant.gravity_m_per_s2 = 0.0;
   const double speed = RpmToRadPerS(6000.0);
   const UncertainPlant plant(unloaded, {}, speed);
@@ -42,7 +43,7 @@ TEST(UncertainPlant, IsTheSampledPlantWhereImagesAreSmall) {
 }
 
 TEST(UncertainPlant, SeesTheSensitivityThatTheSampledLoopHas) {
-  config::RigFile unloaded = Files().rig;
+  configuration::RigFile unloaded = Files().rig;
   unloaded.plant.gravity_m_per_s2 = 0.0;
   const UncertainPlant plant(unloaded, {}, 0.0);
   const LawResponse law(Files().controller.law);
@@ -59,7 +60,7 @@ TEST(UncertainPlant, SeesTheSensitivityThatTheSampledLoopHas) {
 
 // A perturbation put into M by hand moves the plant as the drawn rig's own model does.
 TEST(UncertainPlant, PerturbationsMoveThePlantAsADrawnRigDoes) {
-  config::RigFile rig = Files().rig;
+  configuration::RigFile rig = Files().rig;
   const auto parameters = Stated(rig, {.mode_hz = 0.01});  // small: the perturbation is linear in w
   Random draw(20261125);
   std::vector<double> place;

@@ -75,7 +75,7 @@ class GearedTerms : public ::testing::Test {
   /// |term - plant's effect| over what the effect changes.
   [[nodiscard]] double FromThePlant(std::size_t term, double value,
                                     const effect::EffectConfig& entry) const {
-    config::RigFile rig = bench_.rig;
+    configuration::RigFile rig = bench_.rig;
     rig.plant.effects.push_back(entry);
     const RigView other(rig.numbers, rig.plant);
     const std::vector<Term> none;

@@ -67,7 +67,7 @@ TEST(AvailableEvidence, BesideAnotherEffectIsWhatThatLeaves) {
 TEST(AvailableEvidence, OfWhatATenthOfAToleranceImitatesIsNearlyNothing) {
   // A micrometre, which no slow observer takes away: some thousand nats were there no tolerance of
   // it.
-  const auto tolerances = TheBench().rig.tolerances.value_or(config::Tolerances{});
+  const auto tolerances = TheBench().rig.tolerances.value_or(configuration::Tolerances{});
   const auto offset = Held(effect::Id::kSensorOffset, {0.1 * tolerances.sensor_offset_m});
   ASSERT_TRUE(offset.has_value());
   EXPECT_LT(std::abs(*offset), 1.0);

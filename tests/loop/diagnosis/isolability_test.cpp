@@ -64,9 +64,9 @@ class Standing : public testing::Test {
                         "until: standstill, timeout_s: 9}\n"
                   : "";
     const auto rig = Rig();
-    const auto controller =
-        config::LoadController(config::FindConfig("flexible_rotor", "controllers"), rig.numbers);
-    const auto scenario = config::ParseScenario(
+    const auto controller = configuration::LoadController(
+        configuration::FindConfig("flexible_rotor", "controllers"), rig.numbers);
+    const auto scenario = configuration::ParseScenario(
         "kind: scenario\nname: test\nsteps:\n"
         "  - {do: lift, until: levitating, timeout_s: 9, hold_s: 1.5}\n" +
             turning + "  - {do: land, until: 'off', timeout_s: 9}\n",
@@ -75,7 +75,9 @@ class Standing : public testing::Test {
     diagnosis::LeaveOutContact(diagnosis::RigView(rig.numbers, rig.plant), record);
     return record;
   }
-  static config::RigFile Rig() { return LoadTestRig("flexible_rotor", {"flexible_rotor"}).rig; }
+  static configuration::RigFile Rig() {
+    return LoadTestRig("flexible_rotor", {"flexible_rotor"}).rig;
+  }
 };
 
 TEST_F(Standing, ShowsNoUnbalanceAndTurningBesideItDoes) {

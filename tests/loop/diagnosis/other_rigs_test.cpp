@@ -34,7 +34,7 @@ Asked AskOn(const std::string& rig, std::uint64_t seed, std::vector<effect::Id> 
 /// The extended rig holds the cause as an effect that the strict reader takes.
 void ExpectReadable(const Asked& asked, effect::Id id) {
   const std::string text = diagnosis::ExtendedRig(asked.answer, asked.bench.rig);
-  const config::RigFile extended = config::ParseRig(text, "extended_rig.yaml");
+  const configuration::RigFile extended = configuration::ParseRig(text, "extended_rig.yaml");
   ASSERT_EQ(extended.plant.effects.size(), 1U);
   EXPECT_EQ(extended.plant.effects.front().id, id);
 }

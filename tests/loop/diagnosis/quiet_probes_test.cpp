@@ -6,7 +6,7 @@
 #include "benchmark/accuracy/campaign.hpp"
 #include "benchmark/accuracy/drawn_rig.hpp"
 #include "benchmark/accuracy/trial.hpp"
-#include "diagnosis/report/diagnose_files.hpp"
+#include "diagnosis/diagnose/diagnose_files.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 #include "tests/support/effect_entry.hpp"
 #include "tests/support/paths.hpp"
@@ -124,7 +124,7 @@ constexpr double kLineSigma = 100.0;
 TEST(DrawnRig, IsCalibratedWhereAModeIsKnownFarBetterThanItsPrior) {
   const dg::SearchResult answer = AnswerForDrawn(1159);
   EXPECT_EQ(answer.verdict, dg::Verdict::kNone);
-  EXPECT_LT(answer.remainder.sigma, kLineSigma);
+  EXPECT_LT(answer.residual.sigma, kLineSigma);
 }
 
 /// Its records together lead the third mode 6 % away, where 396 910 sigma are left and a cause of
@@ -132,7 +132,7 @@ TEST(DrawnRig, IsCalibratedWhereAModeIsKnownFarBetterThanItsPrior) {
 TEST(DrawnRig, IsCalibratedFromItsStandingRotorWhereAllRecordsLeadAstray) {
   const dg::SearchResult answer = AnswerForDrawn(1004);
   EXPECT_EQ(answer.verdict, dg::Verdict::kNone);
-  EXPECT_LT(answer.remainder.sigma, kLineSigma);
+  EXPECT_LT(answer.residual.sigma, kLineSigma);
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ class SlopesTest : public ::testing::Test {
 TEST_F(SlopesTest, SumUpToWhatThePropagatedDerivativesGive) {
   Prepare({});
   const std::size_t at = Find("sensor_gain");
-  const std::vector<double> theta = search_.Usual();
+  const std::vector<double> theta = search_.HealthyParameters();
   const View view = search_.Linearise(records_, gains_, theta, 2, {at});
   double jtj = 0.0;
   double jte = 0.0;
@@ -84,7 +84,8 @@ TEST_F(SlopesTest, SumUpToWhatThePropagatedDerivativesGive) {
 
 TEST_F(SlopesTest, RenewedWithTheSameRunStayWhatTheyWere) {
   Prepare({});
-  const View view = search_.Linearise(records_, gains_, search_.Usual(), 4, search_.Everything());
+  const View view =
+      search_.Linearise(records_, gains_, search_.HealthyParameters(), 4, search_.Everything());
   NormalEquations sum = view.sum;
   view.slopes->Renew(*view.runs, view.whitener, sum);
   EXPECT_NEAR(sum.ete, view.sum.ete, 1e-9 * sum.ete);
@@ -100,11 +101,12 @@ TEST_F(SlopesTest, RenewedWithTheSameRunStayWhatTheyWere) {
 TEST_F(SlopesTest, AFitFromFarComesToWhereOneFromNearComes) {
   Prepare({});
   const Refiner refiner(search_, terms_, records_, gains_, view_.axes);
-  const View view = search_.Linearise(records_, gains_, search_.Usual(), 4, search_.Everything());
-  std::vector<double> far = search_.Usual();
+  const View view =
+      search_.Linearise(records_, gains_, search_.HealthyParameters(), 4, search_.Everything());
+  std::vector<double> far = search_.HealthyParameters();
   far[Find("current_gain")] = 0.3;
   const Refined from_far = refiner.Fit({}, far, view, 4);
-  const Refined from_near = refiner.Fit({}, search_.Usual(), view, 4);
+  const Refined from_near = refiner.Fit({}, search_.HealthyParameters(), view, 4);
   ASSERT_TRUE(from_far.ok);
   ASSERT_TRUE(from_near.ok);
   // A descent stops where a pass gains less than 0.3 nat, or promises less than 1.
@@ -116,8 +118,9 @@ TEST_F(SlopesTest, AFitFromFarComesToWhereOneFromNearComes) {
 TEST_F(SlopesTest, AFitIsWorthWhatTheModelDoesAndNoMore) {
   Prepare({});
   const Refiner refiner(search_, terms_, records_, gains_, view_.axes);
-  const View view = search_.Linearise(records_, gains_, search_.Usual(), 4, search_.Everything());
-  const Refined fit = refiner.Fit({}, search_.Usual(), view, 4);
+  const View view =
+      search_.Linearise(records_, gains_, search_.HealthyParameters(), 4, search_.Everything());
+  const Refined fit = refiner.Fit({}, search_.HealthyParameters(), view, 4);
   ASSERT_TRUE(fit.ok);
   const auto line = Evidence(fit.problem, terms_, {}).Solve();
   const double promised = 0.5 * (line.squared_sum + line.penalty);
@@ -134,7 +137,7 @@ TEST_F(SlopesTest, OfACalibrationAreRenewedUntilALargeUnbalanceIsFollowedToTheNo
       CalibrateNuisances(view_, search_, terms_, records_, records_, slow, kSlow, 8);
   ASSERT_TRUE(fit.ok);
   const auto runs = search_.Run(records_, slow, fit.theta);
-  const auto nominal = search_.Run(records_, slow, search_.Usual());
+  const auto nominal = search_.Run(records_, slow, search_.HealthyParameters());
   const auto rms = [](const Trajectory& run, std::size_t axis) {
     double sum = 0.0;
     double count = 0.0;

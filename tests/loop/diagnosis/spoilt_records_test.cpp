@@ -73,7 +73,7 @@ TEST(MendedRecord, HasTheColumnsThatWereExchangedWhereTheyBelong) {
 
 /// Files that another program wrote, of rigs within their tolerances and with a fault.
 TEST(WholeRecords, OfAnotherSimulatorAreAccusedOfNothingToo) {
-  const config::RigFile rig = LoadTestRig("flexible_rotor", {"flexible_rotor"}).rig;
+  const configuration::RigFile rig = LoadTestRig("flexible_rotor", {"flexible_rotor"}).rig;
   const diagnosis::RigView view(rig.numbers, rig.plant);
   for (const char* campaign : {"none", "eddy_current", "unbalance"}) {
     std::vector<diagnosis::Record> records;

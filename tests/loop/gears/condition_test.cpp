@@ -27,7 +27,7 @@ constexpr double kBefore_s = 0.8;   // undisturbed shafts forget their start as 
 const plant::PlantConfig& GearedRig() {
   static const plant::PlantConfig loaded = [] {
     plant::PlantConfig rig =
-        config::LoadRig(test::SourceFolder() + "/config/rigs/geared_rotor_4dof.yaml").plant;
+        configuration::LoadRig(test::SourceFolder() + "/config/rigs/geared_rotor_4dof.yaml").plant;
     rig.gears[0].driving_torque_n_m = 2.0;
     return rig;
   }();

@@ -13,15 +13,16 @@
 namespace levitas::test {
 namespace {
 
-const config::RigFile& Rig(const std::string& name) {
-  static std::map<std::string, config::RigFile> loaded;
+const configuration::RigFile& Rig(const std::string& name) {
+  static std::map<std::string, configuration::RigFile> loaded;
   const auto found = loaded.find(name);
   if (found != loaded.end()) return found->second;
-  return loaded[name] = config::LoadRig(test::SourceFolder() + "/config/rigs/" + name + ".yaml");
+  return loaded[name] =
+             configuration::LoadRig(test::SourceFolder() + "/config/rigs/" + name + ".yaml");
 }
 
 cycle::CycleConfig Cycle(const std::string& rig = "geared_rotor_4dof") {
-  const config::ControllerFile controller = config::LoadController(
+  const configuration::ControllerFile controller = configuration::LoadController(
       test::SourceFolder() + "/config/controllers/geared_rotor.yaml", Rig(rig).numbers);
   return {Rig(rig).numbers, controller.law, controller.supervisor};
 }

@@ -161,8 +161,9 @@ Complex RunOutOf(const gear::Wheel& wheel) {
 
 }  // namespace
 
-config::RigFile BeamRig(const Planes& pinion, const Planes& gear) {
-  config::RigFile rig = config::LoadRig(config::FindConfig("geared_rotor_4dof", "rigs"));
+configuration::RigFile BeamRig(const Planes& pinion, const Planes& gear) {
+  configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig("geared_rotor_4dof", "rigs"));
   rig.numbers.name = "beams";
   rig.plant.shafts = {BeamShaft("pinion", 0.015, {pinion.gear_z_m, 2.0, 1.8e-3, 3.4e-3}),
                       BeamShaft("gear", 0.0155, {gear.gear_z_m, 3.5, 6.0e-3, 1.15e-2})};
@@ -176,7 +177,7 @@ config::RigFile BeamRig(const Planes& pinion, const Planes& gear) {
   return rig;
 }
 
-std::vector<GearedLine> BeamLines(const config::RigFile& rig,
+std::vector<GearedLine> BeamLines(const configuration::RigFile& rig,
                                   const std::vector<double>& speeds_hz) {
   const gear::GearPair& pair = rig.plant.gears.front();
   const Complex p = RunOutOf(pair.driving);

@@ -22,10 +22,10 @@ struct Planes {
 
 /// Two steel shafts of 0.5 m on springs and dampers at their ends, discs of 2 and 3.5 kg at the
 /// gears; the gear pair, the magnets and all else of geared_rotor_4dof.
-[[nodiscard]] config::RigFile BeamRig(const Planes& pinion, const Planes& gear);
+[[nodiscard]] configuration::RigFile BeamRig(const Planes& pinion, const Planes& gear);
 
 /// At every pinion speed [Hz], with 6e3 A/m and 5 A s/m.
 [[nodiscard]] std::vector<identification::GearedLine> BeamLines(
-    const config::RigFile& rig, const std::vector<double>& speeds_hz);
+    const configuration::RigFile& rig, const std::vector<double>& speeds_hz);
 
 }  // namespace levitas::test

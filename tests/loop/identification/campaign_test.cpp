@@ -48,8 +48,8 @@ TEST(Campaign, CoherenceIsHighWhereTheResponseStandsOutOfItsNoise) {
   }
 }
 
-config::RigFile WrongRig() {
-  config::RigFile rig = FlexibleRotor();
+configuration::RigFile WrongRig() {
+  configuration::RigFile rig = FlexibleRotor();
   for (auto& bearing : rig.plant.bearings) {
     bearing.magnet.force_constant_n_m2_per_a2 *= 1.2;
     bearing.magnet.gap_m *= 1.05;

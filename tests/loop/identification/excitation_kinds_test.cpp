@@ -105,7 +105,7 @@ TEST_P(Kinds, GiveTheResponseOfThePrbsWithinTheVariancesOfBoth) {
 }
 
 TEST_P(Kinds, CoherenceIsOneWhereThereIsHardlyAnyNoise) {
-  config::RigFile silent = FlexibleRotor();
+  configuration::RigFile silent = FlexibleRotor();
   for (auto& bearing : silent.plant.bearings) bearing.sensor.noise_rms_m = 5e-8;
   accuracy::ExcitationPlan plan = PlanOf(GetParam());
   plan.hold_s = std::min(plan.hold_s, 2.4);  // of a stepped sine the first eight

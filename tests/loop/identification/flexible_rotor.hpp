@@ -13,8 +13,9 @@
 
 namespace levitas::identification {
 
-inline const config::RigFile& FlexibleRotor() {
-  static const config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+inline const configuration::RigFile& FlexibleRotor() {
+  static const configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
   return rig;
 }
 

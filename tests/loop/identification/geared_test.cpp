@@ -19,14 +19,14 @@ using Complex = std::complex<double>;
 using testing::HasSubstr;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
-config::RigFile Rig(const std::string& name) {
-  return config::LoadRig(config::FindConfig(name, "rigs"));
+configuration::RigFile Rig(const std::string& name) {
+  return configuration::LoadRig(configuration::FindConfig(name, "rigs"));
 }
 
 class Geared : public testing::TestWithParam<const char*> {};
 
 TEST_P(Geared, ExactLinesGiveEveryParameter) {
-  const config::RigFile rig = Rig(GetParam());
+  const configuration::RigFile rig = Rig(GetParam());
   const accuracy::GearedTrial trial = accuracy::MakeGearedTrial(rig, {});
   const auto e = accuracy::Compare(rig, IdentifyGeared(trial.lines, trial.known));
   // Tilts and torsion are eliminated without approximation: only rounding is left, magnified by a
@@ -38,7 +38,7 @@ TEST_P(Geared, ExactLinesGiveEveryParameter) {
 }
 
 TEST_P(Geared, NoiseAndWrongNumbersOfFivePercentLeaveTheMediansWithinTen) {
-  const config::RigFile rig = Rig(GetParam());
+  const configuration::RigFile rig = Rig(GetParam());
   const gear::GearPair& mesh = rig.plant.gears.front();
   std::vector<accuracy::GearedErrors> all;
   int covered = 0;
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(Rigs, Geared,
                                          "geared_rotor_12dof"));
 
 TEST(GearedBound, KnownNumbersThatAreOffCostStiffnessAndHardlyAnyRunOut) {
-  const config::RigFile rig = Rig("geared_rotor_4dof");
+  const configuration::RigFile rig = Rig("geared_rotor_4dof");
   accuracy::GearedPlan plan;
   plan.noise = 0.05;
   const accuracy::GearedErrors exact = accuracy::BoundOf(rig, plan);
@@ -109,7 +109,8 @@ TEST(GearedBound, KnownNumbersThatAreOffCostStiffnessAndHardlyAnyRunOut) {
 /// A record whose every reading is the sum of the lines of two speeds, through sensor and
 /// amplifier. Its currents pull in the positive direction (docs/conventions.md), those of the
 /// lines push against it.
-session::Recording RecordOf(const config::RigFile& rig, const std::vector<GearedLine>& lines) {
+session::Recording RecordOf(const configuration::RigFile& rig,
+                            const std::vector<GearedLine>& lines) {
   session::Recording record;
   record.name = "made of lines";
   record.period_ns = rig.numbers.period_ns;
@@ -157,8 +158,8 @@ session::Recording RecordOf(const config::RigFile& rig, const std::vector<Geared
   return record;
 }
 
-const config::RigFile& FourDof() {
-  static const config::RigFile rig = Rig("geared_rotor_4dof");
+const configuration::RigFile& FourDof() {
+  static const configuration::RigFile rig = Rig("geared_rotor_4dof");
   return rig;
 }
 
@@ -184,9 +185,10 @@ TEST(GearedRecord, GivesItsLinesBack) {
 
 TEST(GearedRecord, AnIdentifiedRigFileHoldsWhatWasFound) {
   const GearedParameters found = Identify(Good());
-  const config::RigFile out = IdentifiedRig(FourDof(), found);
+  const configuration::RigFile out = IdentifiedRig(FourDof(), found);
   // A file reads back bit for bit what was written; identified again it is its own truth.
-  const config::RigFile read = config::ParseRig(config::WriteRig(out), "identified");
+  const configuration::RigFile read =
+      configuration::ParseRig(configuration::WriteRig(out), "identified");
   const auto e = accuracy::Compare(read, found);
   EXPECT_LT(std::max({e.mesh_stiffness, e.ks, e.ki, e.run_out, e.varying_error}), 1e-9);
 }

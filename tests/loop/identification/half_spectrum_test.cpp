@@ -24,14 +24,14 @@ namespace {
 constexpr double kTorqueNoise = 0.005;  // [N m] and [rad] rms, as the rig file has its gauges
 constexpr double kTwistNoise = 2e-6;
 
-const config::RigFile& TwelveDof() {
-  static const config::RigFile rig =
-      config::LoadRig(config::FindConfig("geared_rotor_12dof", "rigs"));
+const configuration::RigFile& TwelveDof() {
+  static const configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig("geared_rotor_12dof", "rigs"));
   return rig;
 }
 
-config::RigFile WithStifferTeeth() {
-  config::RigFile rig = TwelveDof();
+configuration::RigFile WithStifferTeeth() {
+  configuration::RigFile rig = TwelveDof();
   rig.plant.gears.front().stiffness_n_per_m *= 1.5;
   return rig;
 }
@@ -56,7 +56,7 @@ Eigen::Matrix2cd RotationPerTorque(const rotor::Torsion& torsion, double w) {
 }
 
 /// What the teeth are apart on a line but for the wheels' rotation: positions, run-out and error.
-std::complex<double> Apart(const config::RigFile& rig, const GearedLine& line) {
+std::complex<double> Apart(const configuration::RigFile& rig, const GearedLine& line) {
   using Kind = GearedLine::Kind;
   const gear::GearPair& pair = rig.plant.gears.front();
   std::complex<double> apart = line.pinion_m - line.gear_m;
@@ -69,8 +69,8 @@ std::complex<double> Apart(const config::RigFile& rig, const GearedLine& line) {
 /// Twist of both couplings at w > 0. Along n the teeth are d + Rp th_p + Rg th_g apart and carry
 /// K = k + jwc of that, f; each wheel takes -R f, so that f = K d/(1 + K sum R^2 H).
 using Twists = std::array<std::complex<double>, 2>;
-Twists TwistsAt(const config::RigFile& rig, const std::vector<GearedLine>& lines, double speed,
-                double w) {
+Twists TwistsAt(const configuration::RigFile& rig, const std::vector<GearedLine>& lines,
+                double speed, double w) {
   const gear::GearPair& pair = rig.plant.gears.front();
   const gear::Vector along = gear::LineOfAction(pair.pressure_angle_rad);
   const std::complex<double> n(along.x, along.y);
@@ -125,7 +125,7 @@ struct HalfTrial {
   GearedParameters found;
 };
 
-std::vector<GearedLine> LinesOf(const config::RigFile& rig, const HalfTrial& trial) {
+std::vector<GearedLine> LinesOf(const configuration::RigFile& rig, const HalfTrial& trial) {
   std::vector<GearedLine> lines;
   for (const SteadyStretch& stretch : trial.stretches) {
     const auto more = accuracy::LinesAt(rig, {}, stretch.speed_rad_per_s);
@@ -147,7 +147,7 @@ const HalfTrial& ExactTrial() {
 }
 
 /// Readings of the couplings of `rig`, noise left out.
-session::TorsionRecording ReadingsOf(const config::RigFile& rig) {
+session::TorsionRecording ReadingsOf(const configuration::RigFile& rig) {
   const HalfTrial& trial = ExactTrial();
   const std::vector<GearedLine> lines = LinesOf(rig, trial);
   const std::vector<double> orders{0.5, 1.0, 20.0, 40.0, 60.0, 80.0, 100.0};
@@ -258,7 +258,7 @@ TEST(HalfSpectrum, StiffnessIsThatOfTheReadingsAndNotOfTheRigFile) {
 }
 
 TEST(HalfSpectrum, ShareLeftUnexplainedIsWhatTeethOfAnotherStiffnessChange) {
-  const config::RigFile other = WithStifferTeeth();
+  const configuration::RigFile other = WithStifferTeeth();
   const HalfSpectrum half = HalfOf(ReadingsOf(other));
   const std::vector<GearedLine> stiffer = LinesOf(other, ExactTrial());
   std::array<double, 2> power{};

@@ -16,10 +16,10 @@ namespace {
 class LoadedCampaign : public testing::TestWithParam<double> {};
 
 TEST_P(LoadedCampaign, MeasuresThePeaksThatWereComputed) {
-  config::RigFile rig = FlexibleRotor();
+  configuration::RigFile rig = FlexibleRotor();
   rig.plant.gravity_m_per_s2 = GetParam();
-  const auto controller = config::LoadController(
-      config::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
+  const auto controller = configuration::LoadController(
+      configuration::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
   const auto computed = analysis::SensitivityPeaks(rig.plant, controller.law, 0.0);
   accuracy::ExcitationPlan plan;
   plan.amplitude_a = 0.15;  // as the shipped campaign

@@ -112,8 +112,9 @@ TEST(ModalTrial, AModeThatNothingShowsIsFlaggedAndKeepsTheFilesFrequency) {
 
 TEST(ModalTrial, TheIdentifiedRigFileRespondsAsTheModel) {
   const ModalResult& found = Trial().result;
-  const config::RigFile file = IdentifiedRig(FlexibleRotor(), found, RotorForm::kModes);
-  const config::RigFile read = config::ParseRig(config::WriteRig(file), "identified");
+  const configuration::RigFile file = IdentifiedRig(FlexibleRotor(), found, RotorForm::kModes);
+  const configuration::RigFile read =
+      configuration::ParseRig(configuration::WriteRig(file), "identified");
   const plant::PlantModel model(read.plant);
   const auto sampled =
       plant::Discretise(plant::Linearise(model, 0.0), 1e-4, read.plant.delay_samples);

@@ -34,7 +34,7 @@ struct Errors {
 double Relative(Complex found, Complex truth) { return std::abs(found - truth) / std::abs(truth); }
 
 /// The largest of each; of the transmission error the median.
-Errors ErrorsOf(const config::RigFile& rig, const GearedParameters& p) {
+Errors ErrorsOf(const configuration::RigFile& rig, const GearedParameters& p) {
   const gear::GearPair& pair = rig.plant.gears.front();
   Errors e;
   e.mesh_stiffness = Relative(p.mesh_stiffness_n_per_m, pair.stiffness_n_per_m);
@@ -74,7 +74,7 @@ Planes Drawn(Random& random) {
 TEST(ProbePlanes, DrawnBesideTheGearGiveEveryParameterOfExactLines) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     Random random(seed);
-    const config::RigFile rig = BeamRig(Drawn(random), Drawn(random));
+    const configuration::RigFile rig = BeamRig(Drawn(random), Drawn(random));
     const GearedParameters p = IdentifyGeared(BeamLines(rig, kSpeedsHz), KnownOfRig(rig));
     const Errors e = ErrorsOf(rig, p);
     // Modes and nodes are the same model; only rounding is left, magnified by the condition and by
@@ -89,8 +89,8 @@ TEST(ProbePlanes, DrawnBesideTheGearGiveEveryParameterOfExactLines) {
 
 TEST(ProbePlanes, TakenAsIfAtTheGearGiveWrongRunOuts) {
   // The pair to the test before: what the shaft's own model is for.
-  const config::RigFile rig = BeamRig({}, {});
-  const config::RigFile as_if = BeamRig({0.26, 0.28, 0.26}, {0.26, 0.28, 0.26});
+  const configuration::RigFile rig = BeamRig({}, {});
+  const configuration::RigFile as_if = BeamRig({0.26, 0.28, 0.26}, {0.26, 0.28, 0.26});
   GearedKnown known = KnownOfRig(rig);
   const auto lines = BeamLines(rig, kSpeedsHz);
   EXPECT_LT(ErrorsOf(rig, IdentifyGeared(lines, known)).run_out, 1e-5);
@@ -105,7 +105,7 @@ TEST(ProbePlanes, TakenAsIfAtTheGearGiveWrongRunOuts) {
 }
 
 /// 5 % noise on every sample of 20 s at 10 kHz, every known number off by 5 %.
-GearedParameters Spoiled(const config::RigFile& rig, std::uint64_t seed) {
+GearedParameters Spoiled(const configuration::RigFile& rig, std::uint64_t seed) {
   Random random(seed);
   std::vector<GearedLine> lines = BeamLines(rig, kSpeedsHz);
   double position = 0.0;
@@ -142,7 +142,7 @@ GearedParameters Spoiled(const config::RigFile& rig, std::uint64_t seed) {
 }
 
 TEST(ProbePlanes, NoiseAndWrongNumbersOfFivePercentLeaveTheMediansWithinTen) {
-  const config::RigFile rig = BeamRig({}, {});
+  const configuration::RigFile rig = BeamRig({}, {});
   std::vector<Errors> all;
   for (const std::uint64_t seed : {1U, 2U, 3U}) all.push_back(ErrorsOf(rig, Spoiled(rig, seed)));
   // As asked of probes at the gear (geared_test.cpp).
@@ -166,7 +166,7 @@ std::string Refusal(const std::function<void()>& act) {
 
 TEST(ProbePlanes, AtANodeAreRefusedByName) {
   // On a support a thousand times as stiff as the shaft nothing moves.
-  config::RigFile rig = BeamRig({}, {0.2, 0.28, 0.5});
+  configuration::RigFile rig = BeamRig({}, {0.2, 0.28, 0.5});
   rig.plant.shafts[1].supports[1].stiffness_x_n_per_m = 1e9;
   rig.plant.shafts[1].supports[1].stiffness_y_n_per_m = 1e9;
   const auto identify = [&rig] {
@@ -179,7 +179,7 @@ TEST(ProbePlanes, AtANodeAreRefusedByName) {
 
 TEST(ProbePlanes, WhatOnePlaneDoesNotTellIsRefusedByName) {
   const auto refusal = [](const std::function<void(plant::PlantConfig&)>& change) {
-    config::RigFile rig = BeamRig({}, {});
+    configuration::RigFile rig = BeamRig({}, {});
     change(rig.plant);
     return Refusal([&rig] { (void)KnownOfRig(rig); });
   };

@@ -18,16 +18,16 @@
 
 namespace levitas::test {
 
-inline const config::RigFile& ShippedRig() {
-  static const config::RigFile rig =
-      config::LoadRig(levitas::test::SourceFolder() + "/config/rigs/flexible_rotor.yaml");
+inline const configuration::RigFile& ShippedRig() {
+  static const configuration::RigFile rig =
+      configuration::LoadRig(levitas::test::SourceFolder() + "/config/rigs/flexible_rotor.yaml");
   return rig;
 }
 
 /// A shipped controller: the published law by default.
 inline cycle::CycleConfig ShippedCycle(const std::string& name = "flexible_rotor") {
-  const config::RigFile& rig = ShippedRig();
-  const config::ControllerFile controller = config::LoadController(
+  const configuration::RigFile& rig = ShippedRig();
+  const configuration::ControllerFile controller = configuration::LoadController(
       levitas::test::SourceFolder() + "/config/controllers/" + name + ".yaml", rig.numbers);
   return {rig.numbers, controller.law, controller.supervisor, controller.synchronous,
           controller.bias};

@@ -87,7 +87,8 @@ std::ostream& operator<<(std::ostream& out, const KnownRun& run) { return out <<
 
 class Measured : public testing::TestWithParam<KnownRun> {};
 
-std::vector<analysis::RecordedRow> Rows(const config::RigFile& rig, const std::string& path) {
+std::vector<analysis::RecordedRow> Rows(const configuration::RigFile& rig,
+                                        const std::string& path) {
   return analysis::RowsOf(session::LoadRecording(path, rig));
 }
 
@@ -98,7 +99,8 @@ TEST_P(Measured, RecordIsPredictedAsBadlyAsTheManufacturersModelIsKnownTo) {
   const KnownRun& known = GetParam();
   const std::string path = MeasuredFolder() + "/" + known.file;
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "not run: no " << path;
-  const config::RigFile rig = config::LoadRig(config::FindConfig("two_magnet_levitator", "rigs"));
+  const configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig("two_magnet_levitator", "rigs"));
   const auto rows = Rows(rig, path);
   ASSERT_EQ(rows.size(), 15'001U);
   const auto predicted = analysis::PredictCoilCurrents(rig.plant, rows);

@@ -29,13 +29,13 @@ diagnosis::DiagnosisReport Ask(ShippedLoop& loop) {
                       }),
             "");
   EXPECT_EQ(loop.most.contact_n, 0.0);
-  const config::RigFile file = Levitator().rig;
+  const configuration::RigFile file = Levitator().rig;
   return levitator::Diagnose(file, {levitator::MakeSeries("run", file, rows)}, {}, {}).report;
 }
 
 /// Diagnosed from the shipped scenario, then from the plan of that answer.
 void ExpectThePlanToSeparate(const std::string& effect, const std::string& other,
-                             const std::function<void(config::RigFile&)>& hide) {
+                             const std::function<void(configuration::RigFile&)>& hide) {
   ShippedLoop first = Levitator();
   hide(first.rig);
   const diagnosis::DiagnosisReport tied = Ask(first);
@@ -48,8 +48,8 @@ void ExpectThePlanToSeparate(const std::string& effect, const std::string& other
   }
   ShippedLoop second = Levitator();
   hide(second.rig);
-  second.scenario = config::ParseScenario(levitator::PlanScenario(Levitator().rig, tied),
-                                          "next.yaml", second.rig.numbers);
+  second.scenario = configuration::ParseScenario(levitator::PlanScenario(Levitator().rig, tied),
+                                                 "next.yaml", second.rig.numbers);
   const diagnosis::DiagnosisReport separated = Ask(second);
   ASSERT_EQ(separated.ties.size(), 1U);
   EXPECT_EQ(separated.ties.front().cause, effect);
@@ -57,13 +57,13 @@ void ExpectThePlanToSeparate(const std::string& effect, const std::string& other
 }
 
 TEST(LevitatorPlan, TellsALoadFromAnUnevenPairOfCoils) {
-  ExpectThePlanToSeparate("static_load", "coil_asymmetry", [](config::RigFile& rig) {
+  ExpectThePlanToSeparate("static_load", "coil_asymmetry", [](configuration::RigFile& rig) {
     rig.plant.effects = {Entry(effect::Id::kStaticLoad, {0.0, 0.06, 0.0})};
   });
 }
 
 TEST(LevitatorPlan, TellsAProfileOfTheInductanceFromItsSize) {
-  ExpectThePlanToSeparate("inductance_profile", "coil_inductance", [](config::RigFile& rig) {
+  ExpectThePlanToSeparate("inductance_profile", "coil_inductance", [](configuration::RigFile& rig) {
     rig.plant.bearings[0].amplifier.voltage->decay_m = 9e-3;
     rig.plant.bearings[0].amplifier.voltage->time_constant_s = 20e-3;
   });
@@ -73,8 +73,8 @@ TEST(LevitatorPlan, KeepsTheBallInTheFieldWithAllThatItCanDo) {
   diagnosis::DiagnosisReport nameless;
   nameless.verdict = diagnosis::Verdict::kUnknown;
   ShippedLoop loop = Levitator();
-  loop.scenario = config::ParseScenario(levitator::PlanScenario(loop.rig, nameless), "next.yaml",
-                                        loop.rig.numbers);
+  loop.scenario = configuration::ParseScenario(levitator::PlanScenario(loop.rig, nameless),
+                                               "next.yaml", loop.rig.numbers);
   EXPECT_EQ(loop.Play(3, 60.0), "");
   EXPECT_EQ(loop.most.contact_n, 0.0);
   EXPECT_LT(loop.most.orbit_m, 0.8 * loop.rig.plant.bearings[0].touchdown.clearance_m);

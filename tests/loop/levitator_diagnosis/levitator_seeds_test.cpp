@@ -14,8 +14,8 @@
 namespace levitas {
 namespace {
 
-config::RigFile Rig() {
-  return config::LoadRig(config::FindConfig("two_magnet_levitator", "rigs"));
+configuration::RigFile Rig() {
+  return configuration::LoadRig(configuration::FindConfig("two_magnet_levitator", "rigs"));
 }
 
 struct Outcome {
@@ -24,7 +24,7 @@ struct Outcome {
 };
 
 Outcome Ask(std::uint64_t seed, const std::string& hidden, std::string& truth) {
-  const config::RigFile rig = Rig();
+  const configuration::RigFile rig = Rig();
   const accuracy::LevitatorTrial trial = accuracy::MakeLevitatorTrial(rig, seed, hidden);
   truth = trial.hidden;
   Outcome out;

@@ -17,10 +17,10 @@ using synchronous::Target;
 
 /// Gains +-10 %, modes +-3 %, delay +-0.3 samples, all drawn anew.
 plant::PlantConfig DrawnRig(Random& draw) {
-  const config::RigFile& rig = ShippedRig();
+  const configuration::RigFile& rig = ShippedRig();
   const auto parameters =
       ModesWithin(0.03, uncertainty::Stated(rig, {.current_gain = 0.1, .stiffness = 0.1}));
-  config::RigFile drawn =
+  configuration::RigFile drawn =
       uncertainty::At(rig, parameters, uncertainty::DrawPlace(draw, parameters.size()));
   drawn.plant.delay_samples += 0.3 * (2.0 * draw.Uniform() - 1.0);
   return drawn.plant;

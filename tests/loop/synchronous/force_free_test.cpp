@@ -95,15 +95,15 @@ TEST(ForceFree, AJeffcottRotorHasNeitherForceNorResonanceAndIsStableWithoutItsDa
 
 /// The orbit of the rig file's unbalance at the sensors while the bearings give no force of that
 /// order but what the magnets' negative stiffness does.
-double FreeOrbit(const config::RigFile& rig, double speed_rad_per_s) {
+double FreeOrbit(const configuration::RigFile& rig, double speed_rad_per_s) {
   const Eigen::VectorXcd position_m = uncertainty::UncertainPlant(rig, {}, speed_rad_per_s)
                                           .PositionOf(rig.plant.unbalance, speed_rad_per_s);
   return std::max(LargestRadius(position_m[0], position_m[1]),
                   LargestRadius(position_m[2], position_m[3]));
 }
 
-config::RigFile WithoutMagnets() {
-  config::RigFile rig = ShippedRig();
+configuration::RigFile WithoutMagnets() {
+  configuration::RigFile rig = ShippedRig();
   for (auto& bearing : rig.plant.bearings) bearing.magnet.force_constant_n_m2_per_a2 *= 1e-9;
   return rig;
 }
@@ -113,7 +113,7 @@ struct Peak {
   double orbit_m{};
 };
 
-Peak PeakOf(const config::RigFile& rig) {
+Peak PeakOf(const configuration::RigFile& rig) {
   Peak peak;
   for (double rpm = 4500.0; rpm <= 6600.0; rpm += 5.0) {
     const double orbit_m = FreeOrbit(rig, RpmToRadPerS(rpm));
@@ -149,7 +149,7 @@ TEST(ForceFree, ARotorThatBendsByItselfIsAtItsResonanceWhenNoBearingHoldsIt) {
 // Of the motion that resonates, the bearings' forces must take away what the unbalance drives it
 // with, whatever the law: F with u^H (G F + D) = 0, u the direction that G amplifies most.
 TEST(ForceFree, NoLawHoldsThatResonanceWithLessThanHalfOfWhatTheUnbalancePulls) {
-  const config::RigFile rig = WithoutMagnets();
+  const configuration::RigFile rig = WithoutMagnets();
   const double speed = RpmToRadPerS(FreeCriticalRpm());
   const uncertainty::UncertainPlant plant(rig, {}, speed);
   const double hz = speed / (2.0 * std::numbers::pi);

@@ -16,11 +16,11 @@ constexpr double kTeeth = 20.0;  // of the pinion, whose shaft's angle is measur
 
 struct GearedRig {
   explicit GearedRig(const std::string& name)
-      : file(config::LoadRig(SourceFolder() + "/config/rigs/" + name + ".yaml")),
-        controller(config::LoadController(config::FindConfig(file.run.controller, "controllers"),
-                                          file.numbers)) {}
-  config::RigFile file;
-  config::ControllerFile controller;
+      : file(configuration::LoadRig(SourceFolder() + "/config/rigs/" + name + ".yaml")),
+        controller(configuration::LoadController(
+            configuration::FindConfig(file.run.controller, "controllers"), file.numbers)) {}
+  configuration::RigFile file;
+  configuration::ControllerFile controller;
 
   [[nodiscard]] cycle::CycleConfig With(const std::vector<double>& orders) const {
     cycle::CycleConfig config{file.numbers, controller.law, controller.supervisor, {}};

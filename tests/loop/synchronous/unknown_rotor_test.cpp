@@ -116,10 +116,10 @@ Decay DecayOf(const plant::PlantConfig& rig, const law::LawConfig& law, double s
 TEST(UnknownRotor, WithSensorsAtTheMagnetsItDecaysWhereverTheLawDamps) {
   const std::string configs = SourceFolder() + "/config/";
   for (const std::string name : {"flexible_rotor", "turbomolecular_pump"}) {
-    config::RigFile rig = config::LoadRig(configs + "rigs/" + name + ".yaml");
+    configuration::RigFile rig = configuration::LoadRig(configs + "rigs/" + name + ".yaml");
     for (auto& bearing : rig.plant.bearings) bearing.sensor_z_m = bearing.actuator_z_m;
     const auto law =
-        config::LoadController(configs + "controllers/" + name + ".yaml", rig.numbers).law;
+        configuration::LoadController(configs + "controllers/" + name + ".yaml", rig.numbers).law;
     int damped = 0;
     for (double share = 0.02; share <= 1.1; share += 0.02) {
       const double speed = share * rig.numbers.max_speed_rad_per_s;
@@ -154,7 +154,7 @@ TEST(UnknownRotor, SensorsInboardOfTheirMagnetsBreakItWhereTheShaftBends) {
 }
 
 TEST(UnknownRotor, CoilsOnAVoltageAreRefused) {
-  config::RigFile rig = ShippedRig();
+  configuration::RigFile rig = ShippedRig();
   rig.plant.bearings[1].amplifier.voltage = plant::VoltageDrive{};
   const auto law = CommissionedCycle().law;
   const auto loop = analysis::CloseLoop(ShippedRig().plant, law, 300.0);
@@ -180,7 +180,7 @@ TEST(UnknownRotor, ALawThatGivesAnAxisNothingIsRefused) {
 TEST(UnknownRotor, NoRotorDataIsInIt) {
   const auto law = CommissionedCycle().law;
   auto request = Request(Knowledge::kBearings, Target::kVibration, 1500.0, 3900.0);
-  config::RigFile other = ShippedRig();
+  configuration::RigFile other = ShippedRig();
   for (auto& disc : other.plant.rotor.discs) disc.mass_kg *= 1.2;
   const auto of_file = design::WithInverse(ShippedRig(), law, request);
   const auto of_other = design::WithInverse(other, law, request);
@@ -210,7 +210,7 @@ TEST_P(UnknownRejection, TakesTheSynchronousCurrentAway) {
 INSTANTIATE_TEST_SUITE_P(BelowTheFirstBending, UnknownRejection, testing::Values(1600.0, 3000.0));
 
 /// The file's rig, but its first bending mode is 35 % lower: 58 instead of 90 Hz.
-config::RigFile SofterRig() {
+configuration::RigFile SofterRig() {
   auto parameters = uncertainty::Stated(ShippedRig(), {});
   std::vector<double> place(parameters.size(), 0.0);
   for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -229,7 +229,7 @@ cycle::CycleConfig Careless(Knowledge knowledge, double rpm) {
 
 TEST(UnknownRotor, TheFilesRotorDrivesAnotherIntoContactAndTheBearingsAloneDoNot) {
   constexpr double kRpm = 4200.0;
-  const config::RigFile softer = SofterRig();
+  const configuration::RigFile softer = SofterRig();
   ClosedLoop harmed(Careless(Knowledge::kRotor, kRpm), softer.plant);
   EXPECT_TRUE(TouchesAt(harmed, kRpm));
 

@@ -17,11 +17,11 @@ namespace {
 
 struct Bench {
   explicit Bench(const std::string& scenario_name)
-      : rig(config::LoadRig(config::FindConfig("flexible_rotor", "rigs"))),
-        controller(config::LoadController(
-            config::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers)),
-        scenario(
-            config::LoadScenario(config::FindConfig(scenario_name, "scenarios"), rig.numbers)) {}
+      : rig(configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"))),
+        controller(configuration::LoadController(
+            configuration::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers)),
+        scenario(configuration::LoadScenario(configuration::FindConfig(scenario_name, "scenarios"),
+                                             rig.numbers)) {}
 
   /// Plays the scenario to its end, at most `limit_s` of the rig's time.
   verdict::Verdict Play(std::uint64_t seed, double limit_s = 60.0) {
@@ -60,8 +60,8 @@ struct Bench {
     return verdict::Judge(inputs);
   }
 
-  config::RigFile rig;
-  config::ControllerFile controller;
+  configuration::RigFile rig;
+  configuration::ControllerFile controller;
   scenario::ScenarioConfig scenario;
 };
 

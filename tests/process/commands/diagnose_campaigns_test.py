@@ -23,9 +23,9 @@ def diagnose(campaign, names=("standing", "spinning", "runup"), holdout=None):
     with TemporaryDirectory() as folder:
         out = Path(folder) / "answer"
         data = [str(RECORDS / campaign / f"{name}.csv.xz") for name in names]
-        aside = ["--holdout", str(RECORDS / campaign / f"{holdout}.csv.xz")] if holdout else []
+        validation = ["--holdout", str(RECORDS / campaign / f"{holdout}.csv.xz")] if holdout else []
         done = subprocess.run([str(BINARIES / "amb"), "diagnose", "--rig", "flexible_rotor", *data,
-                               *aside, "--out", str(out)], cwd=folder, text=True,
+                               *validation, "--out", str(out)], cwd=folder, text=True,
                               capture_output=True, timeout=LIMIT_S, check=False)
         assert done.returncode == 0, done.stderr
         return json.loads((out / "diagnosis.json").read_text())
@@ -55,12 +55,12 @@ class ForeignCampaigns(unittest.TestCase):
         self.assertEqual((answer["all_causes"], answer["also_possible"]), (["misalignment"], []),
                          answer["candidates"][:3])
 
-    def test_a_run_up_kept_aside_names_the_misalignment(self):
+    def test_a_run_up_as_validation_data_names_the_misalignment(self):
         answer = diagnose("misalignment", ("spinning",), "runup")
         self.assertEqual(answer["verdict"], "effect", answer["candidates"][:3])
         self.assertEqual(answer["all_causes"], ["misalignment"])
         self.assertEqual(answer["also_possible"], [])
-        worth = {c["effect"]: c.get("held_out_nat") for c in answer["candidates"]}
+        worth = {c["effect"]: c.get("validation_nat") for c in answer["candidates"]}
         shares = {(s["effect"], s["calibrated"]): s["share"] for s in answer["error_shares"]}
         self.assertEqual(max(shares, key=shares.get), ("misalignment", False), shares)
         self.assertAlmostEqual(sum(shares.values()), 1.0, delta=0.1)

@@ -215,7 +215,7 @@ class DiagnoseOwnModel(unittest.TestCase):
             self.assertIn(word, done.stderr)
         self.assertFalse((Path(self.shared.name) / "made").exists(), "an empty folder is left")
 
-    def test_what_was_fitted_may_not_be_held_out(self):
+    def test_what_was_fitted_may_not_validate(self):
         folder = Path(self.shared.name)
         (folder / "copy.csv").write_bytes((folder / "run.csv").read_bytes())
         (folder / "below").mkdir(exist_ok=True)

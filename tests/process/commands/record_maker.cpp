@@ -43,9 +43,10 @@ void WriteNames(std::ofstream& csv, const std::vector<std::string>& channels) {
   csv << '\n';
 }
 
-void Record(const std::string& path, const plant::PlantConfig& truth, const config::RigFile& rig,
-            double speed_rpm, std::uint64_t rows, std::uint64_t seed) {
-  const auto controller = config::LoadController(
+void Record(const std::string& path, const plant::PlantConfig& truth,
+            const configuration::RigFile& rig, double speed_rpm, std::uint64_t rows,
+            std::uint64_t seed) {
+  const auto controller = configuration::LoadController(
       levitas::test::SourceFolder() + "/config/controllers/flexible_rotor.yaml", rig.numbers);
   const law::LawCoefficients law(controller.law);
   law::LawState state(law);
@@ -88,8 +89,8 @@ void Record(const std::string& path, const plant::PlantConfig& truth, const conf
 int main(int argc, char** argv) {
   try {
     const std::vector<std::string> given(argv + 1, argv + argc);
-    const auto rig = levitas::config::LoadRig(levitas::test::SourceFolder() +
-                                              "/config/rigs/flexible_rotor.yaml");
+    const auto rig = levitas::configuration::LoadRig(levitas::test::SourceFolder() +
+                                                     "/config/rigs/flexible_rotor.yaml");
     levitas::test::Record(given.at(0), levitas::test::Truth(given.at(1), rig.plant), rig,
                           std::stod(given.at(2)), std::stoull(given.at(3)),
                           std::stoull(given.at(4)));

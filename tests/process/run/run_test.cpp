@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "session/record_codec.hpp"
-#include "session/session_reader.hpp"
+#include "session/log/record_codec.hpp"
+#include "session/log/session_reader.hpp"
 #include "tests/process/run/amb_run.hpp"
 
 namespace levitas::cli {

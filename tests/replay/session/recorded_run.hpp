@@ -7,23 +7,24 @@
 
 #include "common/rotational_speed.hpp"
 #include "configuration/rig_file.hpp"
-#include "session/session_writer.hpp"
+#include "session/log/session_writer.hpp"
 #include "tests/loop/levitation/closed_loop.hpp"
 #include "tests/support/paths.hpp"
-#include "tests/unit/session/synthetic.hpp"
+#include "tests/unit/session/log/synthetic.hpp"
 
 namespace levitas::session::testing {
 
-inline config::ControllerFile ShippedController() {
-  return config::LoadController(
+inline configuration::ControllerFile ShippedController() {
+  return configuration::LoadController(
       levitas::test::SourceFolder() + "/config/controllers/flexible_rotor.yaml",
       test::ShippedRig().numbers);
 }
 
 inline SessionHeader ShippedHeader() {
   SessionHeader header = Header();
-  header.rig_yaml = config::WriteRig(test::ShippedRig());
-  header.controller_yaml = config::WriteController(ShippedController(), test::ShippedRig().numbers);
+  header.rig_yaml = configuration::WriteRig(test::ShippedRig());
+  header.controller_yaml =
+      configuration::WriteController(ShippedController(), test::ShippedRig().numbers);
   return header;
 }
 

@@ -1,10 +1,10 @@
-#include "session/replay.hpp"
+#include "session/replay/replay.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/problem.hpp"
-#include "session/trip_freezer.hpp"
+#include "session/log/trip_freezer.hpp"
 #include "tests/replay/session/recorded_run.hpp"
 
 namespace levitas::session {
@@ -66,11 +66,11 @@ TEST_F(Replaying, ReproducesALawThatChangesWithTheSpeed) {
   const auto records = EventfulRun(
       {rig, controller.law, controller.supervisor, controller.synchronous, controller.bias});
   SessionHeader header = ShippedHeader();
-  header.controller_yaml = config::WriteController(controller, rig);
+  header.controller_yaml = configuration::WriteController(controller, rig);
   EXPECT_TRUE(ReplayOf(records, header).identical());
   // Its laws are not those of rest: the law at rest alone gives other currents once it turns.
   controller.law.schedule.clear();
-  header.controller_yaml = config::WriteController(controller, rig);
+  header.controller_yaml = configuration::WriteController(controller, rig);
   const ReplayReport fixed = ReplayOf(records, header);
   ASSERT_FALSE(fixed.identical());
   EXPECT_NE(records[fixed.different_cycle].in.frame.speed_rad_per_s, 0.0);
@@ -102,10 +102,10 @@ TEST_F(Replaying, ReproducesSynchronousControl) {
   });
   ASSERT_TRUE(acted);
   SessionHeader header = ShippedHeader();
-  header.controller_yaml = config::WriteController(controller, rig);
+  header.controller_yaml = configuration::WriteController(controller, rig);
   EXPECT_TRUE(ReplayOf(records, header).identical());
   controller.synchronous = {};
-  header.controller_yaml = config::WriteController(controller, rig);
+  header.controller_yaml = configuration::WriteController(controller, rig);
   EXPECT_FALSE(ReplayOf(records, header).identical()) << "the block gave nothing";
 }
 
@@ -126,10 +126,10 @@ TEST_F(Replaying, ReproducesABiasThatFalls) {
   const auto& records = run.records;
   ASSERT_LT(records.back().out.current.bias_current_a, 0.99 * rig.bias_current_a);
   SessionHeader header = ShippedHeader();
-  header.controller_yaml = config::WriteController(controller, rig);
+  header.controller_yaml = configuration::WriteController(controller, rig);
   EXPECT_TRUE(ReplayOf(records, header).identical());
   controller.bias = {};
-  header.controller_yaml = config::WriteController(controller, rig);
+  header.controller_yaml = configuration::WriteController(controller, rig);
   EXPECT_FALSE(ReplayOf(records, header).identical()) << "the bias never fell";
 }
 
@@ -156,7 +156,7 @@ TEST_F(Replaying, DiffersWhenAnInputOrTheControllerWasAnother) {
   SessionHeader header = ShippedHeader();
   auto controller = ShippedController();
   controller.law.axes[3].ki_a_per_m_s *= 1.0 + 1e-12;
-  header.controller_yaml = config::WriteController(controller, test::ShippedRig().numbers);
+  header.controller_yaml = configuration::WriteController(controller, test::ShippedRig().numbers);
   const ReplayReport report = ReplayOf(Records(), header);
   EXPECT_FALSE(report.identical());
   EXPECT_THAT(report.difference->field, HasSubstr("nde_y"));

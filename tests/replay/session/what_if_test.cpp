@@ -1,4 +1,4 @@
-#include "session/what_if.hpp"
+#include "session/replay/what_if.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "common/problem.hpp"
-#include "session/csv_import.hpp"
-#include "session/replay.hpp"
+#include "session/exchange/csv_import.hpp"
+#include "session/replay/replay.hpp"
 #include "tests/replay/session/recorded_run.hpp"
 #include "tests/support/paths.hpp"
 
@@ -75,7 +75,7 @@ TEST_F(WhatIfs, LawAloneCommandsWhatAForeignProgramCommanded) {
   ImportOptions import{.data_path = levitas::test::DataFolder() + "/records/standing_2s.csv.xz",
                        .out_path = path_,
                        .rig = test::ShippedRig().numbers,
-                       .rig_yaml = config::WriteRig(test::ShippedRig()),
+                       .rig_yaml = configuration::WriteRig(test::ShippedRig()),
                        .program_version = "0.1.0",
                        .start_utc_ns = 0};
   ImportCsv(import);

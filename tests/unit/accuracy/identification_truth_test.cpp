@@ -19,8 +19,8 @@ using Kind = GearedLine::Kind;
 
 constexpr double kSpeed = 2.0 * std::numbers::pi * 20.0;
 
-config::RigFile Geared(const std::string& name = "geared_rotor_4dof") {
-  return config::LoadRig(config::FindConfig(name, "rigs"));
+configuration::RigFile Geared(const std::string& name = "geared_rotor_4dof") {
+  return configuration::LoadRig(configuration::FindConfig(name, "rigs"));
 }
 
 class GearedLinesTest : public testing::TestWithParam<const char*> {};
@@ -36,7 +36,7 @@ TEST_P(GearedLinesTest, CurrentsFollowThePdLawOnEveryLine) {
 }
 
 TEST_P(GearedLinesTest, AnAddedCurrentMovesItsLineInProportionAndNoLineOfAnotherFrequency) {
-  const config::RigFile rig = Geared(GetParam());
+  const configuration::RigFile rig = Geared(GetParam());
   const auto plain = LinesAt(rig, {}, kSpeed);
   const auto once = LinesAt(rig, {}, kSpeed, {{kSpeed, 0, Complex(0.01, 0.02)}});
   const auto twice = LinesAt(rig, {}, kSpeed, {{kSpeed, 0, Complex(0.02, 0.04)}});
@@ -56,7 +56,7 @@ TEST_P(GearedLinesTest, AnAddedCurrentMovesItsLineInProportionAndNoLineOfAnother
 }
 
 TEST_P(GearedLinesTest, ErrorsThreefoldMakeTheirLinesThreefold) {
-  config::RigFile rig = Geared(GetParam());
+  configuration::RigFile rig = Geared(GetParam());
   const auto plain = LinesAt(rig, {}, kSpeed);
   for (gear::Harmonic& h : rig.plant.gears.front().transmission_error) h.amplitude_m *= 3.0;
   const auto more = LinesAt(rig, {}, kSpeed);
@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Rigs, GearedLinesTest,
                          [](const auto& p) { return std::string(p.param); });
 
 TEST(GearedLines, WithoutTeethAreThoseOfTwoUnbalancedMassesOnTheirMagnets) {
-  config::RigFile rig = Geared();
+  configuration::RigFile rig = Geared();
   gear::GearPair& pair = rig.plant.gears.front();
   pair.stiffness_n_per_m = pair.damping_n_s_per_m = 0.0;
   const GearedPlan plan;
@@ -98,7 +98,7 @@ TEST(GearedLines, WithoutTeethAreThoseOfTwoUnbalancedMassesOnTheirMagnets) {
 }
 
 TEST(GearedTrial, NoiseHasTheStatedDeviationOnEveryAmplitude) {
-  const config::RigFile rig = Geared();
+  const configuration::RigFile rig = Geared();
   GearedPlan plan;
   plan.speeds_hz.assign(60, 20.0);
   const auto exact = MakeGearedTrial(rig, plan).lines;
@@ -120,7 +120,7 @@ TEST(GearedTrial, NoiseHasTheStatedDeviationOnEveryAmplitude) {
 }
 
 TEST(GearedTrial, KnownNumbersAreOffByTheErrorAndAShaftsStiffnessesTogether) {
-  const config::RigFile rig = Geared("geared_rotor_8dof");
+  const configuration::RigFile rig = Geared("geared_rotor_8dof");
   const auto exact = MakeGearedTrial(rig, {}).known;
   GearedPlan plan;
   plan.model_error = 0.05;
@@ -174,7 +174,8 @@ TEST(ModalErrors, CountOnlyProductsThatAResponseTellsAndModesThatTheFitHas) {
 }
 
 TEST(ModalScores, AreDeparturesInTheFitsOwnDeviationsWithTheirSign) {
-  const config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+  const configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
   identification::ModalResult found{
       {}, {}, identification::StartFromRig(rig.plant, 2), {}, {}, {}, {}, Found(), {}, {}, 0.0};
   const auto& at = found.start.frame.layout;

@@ -19,8 +19,8 @@ namespace {
 
 constexpr double kPeriodS = 1e-4;
 
-config::RigFile Rig(const std::string& name) {
-  return config::LoadRig(config::FindConfig(name, "rigs"));
+configuration::RigFile Rig(const std::string& name) {
+  return configuration::LoadRig(configuration::FindConfig(name, "rigs"));
 }
 
 Disturbance Drawn(Unmodelled kind, double size, std::uint64_t seed) {

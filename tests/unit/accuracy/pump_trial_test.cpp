@@ -19,9 +19,10 @@ PumpPlan FewRows(PumpInputs inputs, std::uint64_t noise_seed = 1) {
 
 /// The pump's rig and the law that levitates it.
 struct PumpLaw {
-  config::RigFile rig = config::LoadRig(config::FindConfig("turbomolecular_pump", "rigs"));
-  config::ControllerFile controller =
-      config::LoadController(config::FindConfig(rig.run.controller, "controllers"), rig.numbers);
+  configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig("turbomolecular_pump", "rigs"));
+  configuration::ControllerFile controller = configuration::LoadController(
+      configuration::FindConfig(rig.run.controller, "controllers"), rig.numbers);
 
   /// What the controllers make of readings and a test signal, from rest.
   [[nodiscard]] Eigen::MatrixXd Currents(const Eigen::MatrixXd& reading,

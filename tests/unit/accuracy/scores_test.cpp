@@ -147,7 +147,7 @@ TEST(InformedDiagnosis, CountsOnlyEvidenceForWhatIsHidden) {
   EXPECT_EQ(o.size(), Size::kBelow);
 }
 
-TEST(Tables, ListATrialWhoseOracleFailedAndCountItAsNotNamed) {
+TEST(Tables, ListATrialWhoseInformedDiagnosisFailedAndCountItAsNotNamed) {
   TrialScore o = Missed(1.0);
   o.seed = 17328;
   AddInformedDiagnosis(Informed("misalignment", 0.0, false), 2907.0, o);

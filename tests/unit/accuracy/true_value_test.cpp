@@ -23,21 +23,22 @@ class TrueValueTest : public ::testing::Test {
     p.key = key;
     p.location = location;
     p.si = si;
-    return TrueValue(p, secret_);
+    return TrueValue(p, ground_truth_);
   }
   [[nodiscard]] diagnosis::Location Axis(std::size_t axis) const {
     return diagnosis::AtAxis(rig_.numbers, axis);
   }
   void Hide(const effect::EffectConfig& entry) {
-    secret_.hidden.push_back(entry);
-    secret_.truth.config.effects.push_back(entry);
+    ground_truth_.hidden.push_back(entry);
+    ground_truth_.truth.config.effects.push_back(entry);
   }
   void OffAnyway(const effect::EffectConfig& entry) {
-    secret_.truth.config.effects.push_back(entry);
+    ground_truth_.truth.config.effects.push_back(entry);
   }
 
-  config::RigFile rig_ = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
-  GroundTruth secret_;
+  configuration::RigFile rig_ =
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
+  GroundTruth ground_truth_;
 };
 
 TEST_F(TrueValueTest, OfOneChannelHasNothingOfAnother) {

@@ -11,8 +11,9 @@ namespace {
 
 using testing::HasSubstr;
 
-const config::RigFile& ShippedRig() {
-  static const config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+const configuration::RigFile& ShippedRig() {
+  static const configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
   return rig;
 }
 

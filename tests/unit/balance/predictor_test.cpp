@@ -19,14 +19,16 @@ using Complex = std::complex<double>;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-const config::RigFile& FlexibleRotor() {
-  static const config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+const configuration::RigFile& FlexibleRotor() {
+  static const configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
   return rig;
 }
 
-const config::ControllerFile& Controller() {
-  static const config::ControllerFile file = config::LoadController(
-      config::FindConfig("flexible_rotor_commissioned", "controllers"), FlexibleRotor().numbers);
+const configuration::ControllerFile& Controller() {
+  static const configuration::ControllerFile file = configuration::LoadController(
+      configuration::FindConfig("flexible_rotor_commissioned", "controllers"),
+      FlexibleRotor().numbers);
   return file;
 }
 
@@ -65,7 +67,7 @@ std::vector<analysis::TrackedWindow> SteadyRun(const BalanceRig& rig, const Vect
 
 TEST(Forecast, SensitivityIsThatOfTheSampledLoop) {
   // Without gravity the loop's operating point is the centre, as the rig's here.
-  config::RigFile quiet = FlexibleRotor();
+  configuration::RigFile quiet = FlexibleRotor();
   quiet.plant.gravity_m_per_s2 = 0.0;
   const BalanceRig rig = CentredRig();
   for (const double rpm : {900.0, 3000.0, 5400.0}) {

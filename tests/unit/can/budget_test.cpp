@@ -90,27 +90,32 @@ TEST(Budget, SaysNothingAgainstBusesThatFit) {
 }
 
 TEST(Budget, OfTheShippedRigFitsAtItsRate) {
-  const config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+  const configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
   ASSERT_EQ(rig.buses.size(), 2U);
   const Layout layout = MakeLayout(rig.numbers, FormatOf(rig.buses));
   EXPECT_TRUE(MakeBudget(layout, rig.buses).fits());
 }
 
 TEST(BusKeys, RefuseADirectionThatNoBusOrSeveralCarry) {
-  const config::RigFile shipped = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+  const configuration::RigFile shipped =
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
   for (const auto& [first, second] : {std::pair{Carries::kFromRig, Carries::kFromRig},
                                       std::pair{Carries::kEverything, Carries::kToRig}}) {
-    config::RigFile rig = shipped;
+    configuration::RigFile rig = shipped;
     rig.buses[0].carries = first;
     rig.buses[1].carries = second;
-    EXPECT_THROW(static_cast<void>(config::ParseRig(config::WriteRig(rig), "rig.yaml")),
-                 std::runtime_error);
+    EXPECT_THROW(
+        static_cast<void>(configuration::ParseRig(configuration::WriteRig(rig), "rig.yaml")),
+        std::runtime_error);
   }
 }
 
 TEST(BusKeys, SurviveBeingWrittenAndReadAgain) {
-  const config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
-  const config::RigFile again = config::ParseRig(config::WriteRig(rig), "rig.yaml");
+  const configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
+  const configuration::RigFile again =
+      configuration::ParseRig(configuration::WriteRig(rig), "rig.yaml");
   ASSERT_EQ(again.buses.size(), rig.buses.size());
   for (std::size_t at = 0; at < rig.buses.size(); ++at) {
     EXPECT_EQ(again.buses[at].name, rig.buses[at].name);

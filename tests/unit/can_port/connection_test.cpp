@@ -12,11 +12,13 @@ namespace {
 
 using testing::HasSubstr;
 
-config::RigFile Rig() { return config::LoadRig(config::FindConfig("flexible_rotor", "rigs")); }
+configuration::RigFile Rig() {
+  return configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
+}
 bool Real(const std::string& /*interface*/) { return false; }
 bool Virtual(const std::string& /*interface*/) { return true; }
 
-std::string RefusalOf(const config::RigFile& rig, const std::string& port, ExitStatus status,
+std::string RefusalOf(const configuration::RigFile& rig, const std::string& port, ExitStatus status,
                       bool (*is_virtual)(const std::string&) = Real) {
   try {
     static_cast<void>(PlanConnection(rig.numbers, rig.buses, "rig.yaml", port, is_virtual));
@@ -27,13 +29,13 @@ std::string RefusalOf(const config::RigFile& rig, const std::string& port, ExitS
   return "not refused";
 }
 
-CanConnection Planned(const config::RigFile& rig, const std::string& port,
+CanConnection Planned(const configuration::RigFile& rig, const std::string& port,
                       bool (*is_virtual)(const std::string&)) {
   return PlanConnection(rig.numbers, rig.buses, "rig.yaml", port, is_virtual);
 }
 
 /// The rig's delay in periods with its buses between.
-double DelayOf(const config::RigFile& rig) {
+double DelayOf(const configuration::RigFile& rig) {
   return DelayOnBuses(rig.plant.delay_samples, rig.numbers, Planned(rig, "can", Real).budget);
 }
 
@@ -75,14 +77,14 @@ TEST(CanConnection, SaysThatAnInterfaceIsMissingBeforeItJudgesItsLoad) {
 }
 
 TEST(CanConnection, RefusesALayoutThatDoesNotFitThoughTheInterfaceIsVirtual) {
-  config::RigFile rig = Rig();
+  configuration::RigFile rig = Rig();
   rig.numbers.period_ns = 50'000;
   EXPECT_THAT(RefusalOf(rig, "can:vcan0", ExitStatus::kBadInput, Virtual),
               HasSubstr("the loop at 20000 Hz would load it to 145.2 %"));
 }
 
 TEST(CanConnection, RefusesARigWithoutBuses) {
-  config::RigFile rig = Rig();
+  configuration::RigFile rig = Rig();
   rig.buses.clear();
   EXPECT_THAT(RefusalOf(rig, "can:can0", ExitStatus::kBadInput), HasSubstr("names no CAN buses"));
 }
@@ -104,7 +106,7 @@ TEST(CanConnection, KnowsItsOwnPorts) {
 // The instants of docs/real_rig.md at 100 us: 72.6 us of positions, 30 us until the controller
 // wakes, 5 us until it has answered, 64.6 us of currents.
 TEST(BusDelay, OfACurrentThatActsOnArrivalHoldsTheWayThereAndTheController) {
-  config::RigFile rig = Rig();
+  configuration::RigFile rig = Rig();
   rig.buses[1].current_acts = can::Acts::kOnArrival;
   EXPECT_NEAR(DelayOf(rig), 1.722, 1e-9);
 }
@@ -112,13 +114,13 @@ TEST(BusDelay, OfACurrentThatActsOnArrivalHoldsTheWayThereAndTheController) {
 TEST(BusDelay, OfACurrentThatActsAtTheNextSampleIsWholePeriods) { EXPECT_EQ(DelayOf(Rig()), 2.0); }
 
 TEST(BusDelay, LeavesALongerDelayOfTheRigsFile) {
-  config::RigFile rig = Rig();
+  configuration::RigFile rig = Rig();
   rig.plant.delay_samples = 2.5;
   EXPECT_EQ(DelayOf(rig), 2.5);
 }
 
 TEST(BusDelay, OfOneBusForBothDirectionsTakesWhatTheCurrentsBusSays) {
-  config::RigFile rig = Rig();
+  configuration::RigFile rig = Rig();
   rig.numbers.period_ns = 500'000;  // one bus carries that
   rig.buses[1].current_acts = can::Acts::kOnArrival;
   const can::LoopDelay delay = can::DelayOf(Planned(rig, "can:a", Real).budget);

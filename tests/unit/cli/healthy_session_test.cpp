@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "session/csv_import.hpp"
-#include "session/session_reader.hpp"
+#include "session/exchange/csv_import.hpp"
+#include "session/log/session_reader.hpp"
 #include "session_index/catalogue.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -17,7 +17,8 @@ namespace {
 
 class HealthySessionTest : public testing::Test {
  protected:
-  HealthySessionTest() : rig_(config::LoadRig(config::FindConfig("flexible_rotor", "rigs"))) {
+  HealthySessionTest()
+      : rig_(configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"))) {
     setenv("LEVITAS_CATALOGUE", Catalogue().c_str(), 1);
   }
   // None, as for every test: what is forgotten here would be the catalogue of whoever tests.
@@ -26,12 +27,12 @@ class HealthySessionTest : public testing::Test {
   [[nodiscard]] std::string Catalogue() const { return folder_ / "sessions.db"; }
 
   /// A session without a sample: its header is all that is read.
-  std::string Session(const std::string& name, const config::RigFile& rig) {
+  std::string Session(const std::string& name, const configuration::RigFile& rig) {
     session::ImportOptions options;
     options.out_path = folder_ / name;
     options.start_utc_ns = 100;
     options.rig = rig.numbers;
-    options.rig_yaml = config::WriteRig(rig);
+    options.rig_yaml = configuration::WriteRig(rig);
     session::WriteImport(options, [](const session::RecordTaker&) {});
     return options.out_path;
   }
@@ -48,7 +49,7 @@ class HealthySessionTest : public testing::Test {
   }
 
   test::ScratchFolder folder_;
-  config::RigFile rig_;
+  configuration::RigFile rig_;
 };
 
 TEST_F(HealthySessionTest, IsTheNewestThatWasAccepted) {
@@ -85,7 +86,9 @@ TEST_F(HealthySessionTest, IsThereAndOfARigWithTheSameChannelsAndPeriod) {
   Enter(gone, 4);
   std::filesystem::remove(gone);
   // A rig of the same name with other channels.
-  Enter(Session("pump.lcm", config::LoadRig(config::FindConfig("turbomolecular_pump", "rigs"))), 3);
+  Enter(Session("pump.lcm",
+                configuration::LoadRig(configuration::FindConfig("turbomolecular_pump", "rigs"))),
+        3);
   EXPECT_EQ(LastAcceptedSession(rig_, {}), "");
   const std::string same = Session("same.lcm", rig_);
   Enter(same, 2);

@@ -27,9 +27,10 @@ constexpr std::uint64_t kLiveWindow = 200;  ///< rows: 0.02 s of the rig's 10 kH
 class LiveReportTest : public testing::Test {
  protected:
   LiveReportTest() {
-    const config::RigFile rig = config::LoadRig(config::FindConfig("one_axis", "rigs"));
+    const configuration::RigFile rig =
+        configuration::LoadRig(configuration::FindConfig("one_axis", "rigs"));
     session::SessionHeader header;
-    header.rig_yaml = config::WriteRig(rig);
+    header.rig_yaml = configuration::WriteRig(rig);
     header.channels = rig.numbers.channels;
     header.period_ns = rig.numbers.period_ns;
     live_.Take(header);

@@ -25,12 +25,13 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-config::RigFile RigOf(const RigSketch& sketch) {
-  return config::ParseRig(SketchRig(sketch, "c.yaml", "s.yaml"), "own.yaml");
+configuration::RigFile RigOf(const RigSketch& sketch) {
+  return configuration::ParseRig(SketchRig(sketch, "c.yaml", "s.yaml"), "own.yaml");
 }
 
 law::LawConfig LawOf(const RigSketch& sketch, const StartLaw& form) {
-  return config::ParseController(SketchController(sketch, form), "c.yaml", RigOf(sketch).numbers)
+  return configuration::ParseController(SketchController(sketch, form), "c.yaml",
+                                        RigOf(sketch).numbers)
       .law;
 }
 
@@ -82,7 +83,7 @@ TEST(RigSketch, HasDiscsWhoseInertiaABodyCanHave) {
 TEST(RigSketch, IsARigThatTheStrictReaderTakes) {
   RigSketch sketch = Sketch();
   sketch.discs = {{585.0, 1.5, 180.0}};
-  const config::RigFile rig = RigOf(sketch);
+  const configuration::RigFile rig = RigOf(sketch);
   EXPECT_EQ(rig.numbers.channels.size(), 4U);
   EXPECT_EQ(rig.run.controller, "./c.yaml");
   EXPECT_NEAR(rig.numbers.max_speed_rad_per_s, RpmToRadPerS(12'000.0), 1e-9);
@@ -133,7 +134,7 @@ TEST(StartLaw, HoldsASpindleThatTheUsualFormDoesNot) {
   sketch.bearings_mm = {120.0, 460.0};
   sketch.discs = {{585.0, 1.5, 180.0}};
   sketch.amplifier_hz = 2000.0;
-  const config::RigFile rig = RigOf(sketch);
+  const configuration::RigFile rig = RigOf(sketch);
   const StartLaw chosen = ChooseStartLaw(sketch, rig);
   for (const double speed : {0.0, rig.numbers.max_speed_rad_per_s}) {
     EXPECT_FALSE(analysis::ClosedLoopPoles(rig.plant, LawOf(sketch, {}), speed).stable);

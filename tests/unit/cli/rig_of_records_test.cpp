@@ -11,7 +11,7 @@
 #include "common/problem.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 #include "rt/say.hpp"
-#include "session/csv_import.hpp"
+#include "session/exchange/csv_import.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace levitas::cli {
@@ -20,12 +20,12 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-config::RigFile Shipped(const std::string& name) {
-  return config::LoadRig(config::FindConfig(name, "rigs"));
+configuration::RigFile Shipped(const std::string& name) {
+  return configuration::LoadRig(configuration::FindConfig(name, "rigs"));
 }
 
-config::RigFile Heavy() {
-  config::RigFile rig = Shipped("flexible_rotor");
+configuration::RigFile Heavy() {
+  configuration::RigFile rig = Shipped("flexible_rotor");
   rig.numbers.name = "heavy";
   rig.plant.rotor.discs[1].mass_kg = 1.5;
   return rig;
@@ -34,24 +34,25 @@ config::RigFile Heavy() {
 class RigOfRecordsTest : public testing::Test {
  protected:
   /// A session of `rig` without a single sample: what it says of its rig is all that is read.
-  std::string Session(const std::string& name, const config::RigFile& rig) {
+  std::string Session(const std::string& name, const configuration::RigFile& rig) {
     session::ImportOptions options;
     options.out_path = folder_ / name;
     options.rig = rig.numbers;
-    options.rig_yaml = config::WriteRig(rig);
+    options.rig_yaml = configuration::WriteRig(rig);
     session::WriteImport(options, [](const session::RecordTaker&) {});
     return options.out_path;
   }
 
   /// The rig that the command line and the records give, and what is said on the way.
-  config::RigFile Given(std::vector<std::string> line, const std::vector<std::string>& records) {
+  configuration::RigFile Given(std::vector<std::string> line,
+                               const std::vector<std::string>& records) {
     CLI::App app;
     AnalysisOptions options;
     AddRigOfRecordsOption(app, options);
     std::reverse(line.begin(), line.end());
     app.parse(line);
     testing::internal::CaptureStderr();
-    config::RigFile rig = LoadRigOfRecords(options, records);
+    configuration::RigFile rig = LoadRigOfRecords(options, records);
     static_cast<void>(rt::FlushSaid());
     said_ = testing::internal::GetCapturedStderr();
     return rig;
@@ -98,7 +99,7 @@ TEST_F(RigOfRecordsTest, HasToBeNamedForSessionsOfSeveral) {
 }
 
 TEST_F(RigOfRecordsTest, TellsEffectsThatTheModelThenHasToo) {
-  config::RigFile cracked = Shipped("flexible_rotor");
+  configuration::RigFile cracked = Shipped("flexible_rotor");
   cracked.plant.effects.push_back(effect::ClearEntry(effect::Id::kBreathingCrack));
   const std::string session = Session("cracked.lcm", cracked);
   EXPECT_EQ(Given({}, {session}).plant.effects.size(), 1U);
@@ -106,7 +107,7 @@ TEST_F(RigOfRecordsTest, TellsEffectsThatTheModelThenHasToo) {
 }
 
 TEST(RigDifference, IsTheFirstValueWithItsGroups) {
-  config::RigFile other = Shipped("flexible_rotor");
+  configuration::RigFile other = Shipped("flexible_rotor");
   EXPECT_EQ(RigDifference(Shipped("flexible_rotor"), other), "");
   other.numbers.name = "renamed";
   other.run.controller = "another";

@@ -85,7 +85,7 @@ TEST(AnalysisOptions, RefuseASpeedThatNoRotorHasAndSayWhatIsAllowed) {
 
 TEST(AnalysisOptions, LoadTheShippedFilesByName) {
   const AnalysisOptions options = Parsed("");
-  const config::RigFile rig = LoadRig(options);
+  const configuration::RigFile rig = LoadRig(options);
   EXPECT_EQ(rig.numbers.name, "flexible_rotor");
   EXPECT_EQ(LoadController(options, rig).file.law.axes.size(), rig.numbers.axes());
   EXPECT_THROW((void)LoadRig(Parsed("--rig flexible_roter")), BadInput);

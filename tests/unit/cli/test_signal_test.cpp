@@ -18,7 +18,7 @@ namespace {
 
 struct Made {
   RigSketch sketch;
-  config::RigFile rig;
+  configuration::RigFile rig;
   law::LawConfig law;
   TestSignal signal;
 };
@@ -28,23 +28,23 @@ Made MakeRig(double rate_hz = 10'000.0) {
   made.sketch.bearings_mm = {120.0, 460.0};
   made.sketch.discs = {{585.0, 1.5, 180.0}};
   made.sketch.rate_hz = rate_hz;
-  made.rig = config::ParseRig(SketchRig(made.sketch, "c.yaml", "s.yaml"), "own.yaml");
-  made.law =
-      config::ParseController(SketchController(made.sketch, ChooseStartLaw(made.sketch, made.rig)),
-                              "c.yaml", made.rig.numbers)
-          .law;
+  made.rig = configuration::ParseRig(SketchRig(made.sketch, "c.yaml", "s.yaml"), "own.yaml");
+  made.law = configuration::ParseController(
+                 SketchController(made.sketch, ChooseStartLaw(made.sketch, made.rig)), "c.yaml",
+                 made.rig.numbers)
+                 .law;
   made.signal = TestSignalOf(made.rig, made.law);
   return made;
 }
 
 /// At the rate of the sketch. Its law is a search of seconds, many times that under a sanitizer.
-const Made& Usual() {
+const Made& HealthyParameters() {
   static const Made made = MakeRig();
   return made;
 }
 
 TEST(TestSignal, NeverTakesMoreThanATenthOfTheBias) {
-  const Made& made = Usual();
+  const Made& made = HealthyParameters();
   EXPECT_GT(made.signal.amplitude_a, 0.0);
   EXPECT_LE(made.signal.amplitude_a, 0.2 + 1e-12);
   EXPECT_NEAR(made.signal.orbit_limit_m, 0.4 * 0.2e-3, 1e-12);
@@ -52,7 +52,7 @@ TEST(TestSignal, NeverTakesMoreThanATenthOfTheBias) {
 
 /// Where the clearance is what limits it, the amplitude is in proportion to it.
 TEST(TestSignal, MovesTheRotorByAShareOfItsClearance) {
-  Made made = Usual();
+  Made made = HealthyParameters();
   const auto with_clearance = [&made](double clearance_m) {
     for (auto& bearing : made.rig.plant.bearings) bearing.touchdown.clearance_m = clearance_m;
     return TestSignalOf(made.rig, made.law).amplitude_a;
@@ -64,7 +64,7 @@ TEST(TestSignal, MovesTheRotorByAShareOfItsClearance) {
 }
 
 TEST(TestSignal, StaysAwayFromCriticalSpeeds) {
-  Made made = Usual();
+  Made made = HealthyParameters();
   const double top = made.rig.numbers.max_speed_rad_per_s;
   const auto crossings = analysis::LevitatedCampbell(made.rig.plant, made.law, top).crossings;
   ASSERT_FALSE(crossings.empty());
@@ -83,9 +83,9 @@ TEST(TestSignal, StaysAwayFromCriticalSpeeds) {
 }
 
 TEST(TestSignal, IsOverWhenItSays) {
-  const Made& made = Usual();
-  const auto scenario = config::ParseScenario(SketchIdentify(made.sketch, made.rig, made.signal),
-                                              "s.yaml", made.rig.numbers);
+  const Made& made = HealthyParameters();
+  const auto scenario = configuration::ParseScenario(
+      SketchIdentify(made.sketch, made.rig, made.signal), "s.yaml", made.rig.numbers);
   double held_s = 0.0;
   for (const auto& step : scenario.steps) held_s += step.hold_s;
   const double said_s = DurationOf(made.sketch, made.rig, made.signal);
@@ -96,7 +96,7 @@ TEST(TestSignal, IsOverWhenItSays) {
 TEST(TestSignal, HasPeriodsOfAboutASecondAtAnyRate) {
   const Made slow = MakeRig(2'000.0);
   const Made fast = MakeRig(40'000.0);
-  for (const Made* made : {&slow, &Usual(), &fast}) {
+  for (const Made* made : {&slow, &HealthyParameters(), &fast}) {
     const double rate_hz = made->sketch.rate_hz;
     const double period_s = (std::exp2(made->signal.order) - 1.0) * made->signal.divisor / rate_hz;
     EXPECT_GT(period_s, 0.5) << rate_hz;
@@ -105,9 +105,9 @@ TEST(TestSignal, HasPeriodsOfAboutASecondAtAnyRate) {
 }
 
 TEST(TestSignal, IsAScenarioThatExcitesEveryAxisAtEachSpeed) {
-  const Made& made = Usual();
-  const auto scenario = config::ParseScenario(SketchIdentify(made.sketch, made.rig, made.signal),
-                                              "s.yaml", made.rig.numbers);
+  const Made& made = HealthyParameters();
+  const auto scenario = configuration::ParseScenario(
+      SketchIdentify(made.sketch, made.rig, made.signal), "s.yaml", made.rig.numbers);
   std::size_t excited = 0;
   for (const auto& step : scenario.steps) excited += step.excitation.size();
   EXPECT_EQ(excited, 3 * made.rig.numbers.channels.size());

@@ -8,7 +8,7 @@ namespace levitas::cli {
 namespace {
 
 TEST(TextTable, IsAsWideAsItsWidestCellsAndKeepsTwoBlanksBetween) {
-  TextTable table;
+  report::TextTable table;
   table.Add({"Hz", "0-10", "10-30"});
   table.Add({"de_x", "123456.78 (100 %)", "0.20"});
   EXPECT_EQ(table.Text(),
@@ -17,14 +17,14 @@ TEST(TextTable, IsAsWideAsItsWidestCellsAndKeepsTwoBlanksBetween) {
 }
 
 TEST(TextTable, TakesRowsOfDifferentLengthsAndLeavesNoBlanksAtTheirEnds) {
-  TextTable table;
+  report::TextTable table;
   table.Add({"a"});
   table.Add({"bb", "1", "2"});
   table.Add({"c", "", ""});
   EXPECT_EQ(table.Text(), "a\nbb  1  2\nc\n");
 }
 
-TEST(TextTable, OfNothingIsNothing) { EXPECT_EQ(TextTable().Text(), ""); }
+TEST(TextTable, OfNothingIsNothing) { EXPECT_EQ(report::TextTable().Text(), ""); }
 
 }  // namespace
 }  // namespace levitas::cli

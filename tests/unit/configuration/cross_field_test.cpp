@@ -4,7 +4,7 @@
 
 #include "tests/unit/configuration/samples.hpp"
 
-namespace levitas::config::test {
+namespace levitas::configuration::test {
 namespace {
 
 TEST(CoilLimit, MustExceedTheBias) {
@@ -210,4 +210,4 @@ TEST(ARefusedField, DoesNotCauseFurtherProblemsWithItsRelatives) {
 }
 
 }  // namespace
-}  // namespace levitas::config::test
+}  // namespace levitas::configuration::test

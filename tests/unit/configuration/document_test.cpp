@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 TEST(ReadDocument, RemembersWhereKeysAndValuesStand) {
@@ -87,4 +87,4 @@ TEST(ReadDocument, SurvivesDeepNesting) {
 }
 
 }  // namespace
-}  // namespace levitas::config
+}  // namespace levitas::configuration

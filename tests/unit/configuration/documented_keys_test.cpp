@@ -14,7 +14,7 @@
 #include "tests/unit/configuration/full_samples.hpp"
 #include "tests/unit/configuration/samples.hpp"
 
-namespace levitas::config::test {
+namespace levitas::configuration::test {
 namespace {
 
 struct Row {
@@ -140,4 +140,4 @@ TEST(WrittenFiles, AreIndentedByTwoAndHoldNoTabsOrTrailingBlanks) {
 }
 
 }  // namespace
-}  // namespace levitas::config::test
+}  // namespace levitas::configuration::test

@@ -5,7 +5,7 @@
 #include "tests/unit/configuration/full_samples.hpp"
 #include "tests/unit/configuration/samples.hpp"
 
-namespace levitas::config::test {
+namespace levitas::configuration::test {
 namespace {
 
 /// The small rig (one bearing, de; shaft of 200 mm; default modes) with a list of effects.
@@ -109,4 +109,4 @@ TEST(Effects, OfAnUnknownIdAreOneProblemNotOnePerKey) {
 }
 
 }  // namespace
-}  // namespace levitas::config::test
+}  // namespace levitas::configuration::test

@@ -11,7 +11,7 @@
 #include "controller/scenario/excitation_guard.hpp"
 #include "controller/scenario/scenario_player.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 using testing::AllOf;
@@ -170,4 +170,4 @@ TEST(ExcitationRequest, NamesTheAxesAndTheWordForAllWhereItKnowsNeither) {
 }
 
 }  // namespace
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -10,7 +10,7 @@
 
 #include "configuration/text/writer.hpp"
 
-namespace levitas::config::test {
+namespace levitas::configuration::test {
 
 struct ListedField {
   std::string key;
@@ -115,4 +115,4 @@ class Bits : public Writer {
   }
 };
 
-}  // namespace levitas::config::test
+}  // namespace levitas::configuration::test

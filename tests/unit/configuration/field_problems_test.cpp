@@ -3,7 +3,7 @@
 
 #include "tests/unit/configuration/samples.hpp"
 
-namespace levitas::config::test {
+namespace levitas::configuration::test {
 namespace {
 
 // Line 21 of the rig is "      gap_mm: 0.4"; its value begins in column 15.
@@ -221,4 +221,4 @@ TEST(EveryProblem, IsListedInTheOrderOfTheFile) {
 }
 
 }  // namespace
-}  // namespace levitas::config::test
+}  // namespace levitas::configuration::test

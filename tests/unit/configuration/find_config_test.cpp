@@ -9,7 +9,7 @@
 #include "configuration/rig_file.hpp"
 #include "tests/support/paths.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 namespace fs = std::filesystem;
@@ -87,4 +87,4 @@ TEST_F(FindConfigIn, AnEmptyFileIsSaidToBeEmpty) {
 }
 
 }  // namespace
-}  // namespace levitas::config
+}  // namespace levitas::configuration

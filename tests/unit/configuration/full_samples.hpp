@@ -4,7 +4,7 @@
 #include "configuration/rig_file.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 
-namespace levitas::config::test {
+namespace levitas::configuration::test {
 
 inline RigFile FullRig() {
   RigFile rig = LoadRig(FindConfig("flexible_rotor", "rigs"));
@@ -126,4 +126,4 @@ inline ControllerFile SynchronousController(const RigNumbers& rig) {
   return controller;
 }
 
-}  // namespace levitas::config::test
+}  // namespace levitas::configuration::test

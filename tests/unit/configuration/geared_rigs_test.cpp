@@ -9,7 +9,7 @@
 #include "common/problem.hpp"
 #include "configuration/rig_file.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 using testing::HasSubstr;
@@ -146,4 +146,4 @@ TEST(Torsion, NamesAnInertiaThatExists) {
 }
 
 }  // namespace
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -5,7 +5,7 @@
 
 #include "tests/unit/configuration/samples.hpp"
 
-namespace levitas::config::test {
+namespace levitas::configuration::test {
 namespace {
 
 TEST(UnknownKey, NamesTheNearestAndDoesNotReportTheRightOneAsMissing) {
@@ -210,4 +210,4 @@ TEST(ScenarioStep, NeedsASpeedWithSpinAndATimeOutWithUntil) {
 }
 
 }  // namespace
-}  // namespace levitas::config::test
+}  // namespace levitas::configuration::test

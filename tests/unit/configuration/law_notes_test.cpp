@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 using testing::ElementsAre;
@@ -50,4 +50,4 @@ TEST(LawNotes, SaysNothingOfALawThatDecays) {
 }
 
 }  // namespace
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -9,7 +9,7 @@
 #include "common/random.hpp"
 #include "configuration/rig_file.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 std::string Text(const std::string& path) {
@@ -104,4 +104,4 @@ TEST(Mutations, OfEveryLengthOfTruncationAreRefusedOrParse) {
 }
 
 }  // namespace
-}  // namespace levitas::config
+}  // namespace levitas::configuration

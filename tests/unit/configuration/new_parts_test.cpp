@@ -10,7 +10,7 @@
 #include "configuration/rig_file.hpp"
 #include "tests/unit/configuration/full_samples.hpp"
 
-namespace levitas::config::test {
+namespace levitas::configuration::test {
 namespace {
 
 using testing::HasSubstr;
@@ -189,4 +189,4 @@ TEST(Spin, FasterThanTheDriveCanIsRefusedNotShortened) {
 }
 
 }  // namespace
-}  // namespace levitas::config::test
+}  // namespace levitas::configuration::test

@@ -11,7 +11,7 @@
 #include "configuration/text/read_file.hpp"
 #include "tests/support/scratch_folder.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 using testing::HasSubstr;
@@ -84,4 +84,4 @@ TEST_F(OwnFiles, MayLeaveOutWhatATouchdownBearingUsuallyIsButNotItsClearance) {
 }
 
 }  // namespace
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -12,7 +12,7 @@
 #include "tests/unit/configuration/full_samples.hpp"
 #include "tests/unit/configuration/samples.hpp"
 
-namespace levitas::config::test {
+namespace levitas::configuration::test {
 namespace {
 
 template <class... Context, class File>
@@ -264,4 +264,4 @@ TEST(RoundTrip, WritesEveryDefault) {
 }
 
 }  // namespace
-}  // namespace levitas::config::test
+}  // namespace levitas::configuration::test

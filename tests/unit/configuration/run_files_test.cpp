@@ -9,7 +9,7 @@
 
 #include "common/problem.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 std::string Refusal(const RunDefaults& own) {
@@ -78,4 +78,4 @@ TEST(RunFiles, WhatIsMissingIsNamedWithItsKeyAndWhereAPathCountsFrom) {
 }
 
 }  // namespace
-}  // namespace levitas::config
+}  // namespace levitas::configuration

@@ -6,7 +6,7 @@
 #include "common/problem.hpp"
 #include "configuration/rig_file.hpp"
 
-namespace levitas::config::test {
+namespace levitas::configuration::test {
 
 /// A rig of one bearing; each line is a key, so that a test can replace one.
 inline constexpr const char* kRig = R"(kind: rig
@@ -121,4 +121,4 @@ inline std::string ScenarioProblems(const std::string& text) {
   return "";
 }
 
-}  // namespace levitas::config::test
+}  // namespace levitas::configuration::test

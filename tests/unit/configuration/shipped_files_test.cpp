@@ -10,7 +10,7 @@
 #include "configuration/rig_file.hpp"
 #include "tests/support/paths.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 double Ki(const plant::MagnetConfig& m) {
@@ -153,4 +153,4 @@ TEST(ShippedFiles, AllParse) {
 }
 
 }  // namespace
-}  // namespace levitas::config
+}  // namespace levitas::configuration

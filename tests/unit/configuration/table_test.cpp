@@ -14,7 +14,7 @@
 #include "tests/unit/configuration/field_list.hpp"
 #include "tests/unit/configuration/full_samples.hpp"
 
-namespace levitas::config::test {
+namespace levitas::configuration::test {
 namespace {
 
 struct Kind {
@@ -287,4 +287,4 @@ TEST(Tables, KnowEveryFieldOfTheStructs) {
 }
 
 }  // namespace
-}  // namespace levitas::config::test
+}  // namespace levitas::configuration::test

@@ -9,7 +9,7 @@
 
 #include "common/random.hpp"
 
-namespace levitas::config {
+namespace levitas::configuration {
 namespace {
 
 TEST(IsDecimal, AcceptsPlainNumbersOnly) {
@@ -82,4 +82,4 @@ TEST(FromSi, ReadsBackAtTheEndsOfTheRange) {
 }
 
 }  // namespace
-}  // namespace levitas::config
+}  // namespace levitas::configuration

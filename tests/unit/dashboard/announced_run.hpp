@@ -5,7 +5,7 @@
 
 #include "configuration/rig_file.hpp"
 #include "dashboard/live_run.hpp"
-#include "session/record_codec.hpp"
+#include "session/log/record_codec.hpp"
 #include "transport/lcm_network.hpp"
 
 namespace levitas::dashboard {
@@ -13,7 +13,8 @@ namespace levitas::dashboard {
 inline session::Bytes EncodedHeader(std::int64_t start_utc_ns,
                                     const std::string& rig = "flexible_rotor") {
   session::SessionHeader header;
-  header.rig_yaml = config::WriteRig(config::LoadRig(config::FindConfig(rig, "rigs")));
+  header.rig_yaml =
+      configuration::WriteRig(configuration::LoadRig(configuration::FindConfig(rig, "rigs")));
   header.pace = "lockstep";
   header.source = "lcm";
   header.start_utc_ns = start_utc_ns;
@@ -24,9 +25,10 @@ inline session::Bytes EncodedHeader(std::int64_t start_utc_ns,
 
 /// The same rig with its commissioned law, one block of synchronous control, and a bias that falls.
 inline session::Bytes HeaderWithBlock(std::int64_t start_utc_ns, const std::string& block_name) {
-  const config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
-  config::ControllerFile controller = config::LoadController(
-      config::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
+  const configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
+  configuration::ControllerFile controller = configuration::LoadController(
+      configuration::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
   synchronous::BlockConfig& block = controller.synchronous.blocks.emplace_back();
   block.name = block_name;
   block.from_rad_per_s = 200.0;
@@ -37,8 +39,8 @@ inline session::Bytes HeaderWithBlock(std::int64_t start_utc_ns, const std::stri
   block.inverse[0].inverse.real[0][0] = 1.0;
   controller.bias.lowest_current_a = 0.3;
   session::SessionHeader header;
-  header.rig_yaml = config::WriteRig(rig);
-  header.controller_yaml = config::WriteController(controller, rig.numbers);
+  header.rig_yaml = configuration::WriteRig(rig);
+  header.controller_yaml = configuration::WriteController(controller, rig.numbers);
   header.start_utc_ns = start_utc_ns;
   session::Bytes bytes;
   session::EncodeHeader(header, bytes);

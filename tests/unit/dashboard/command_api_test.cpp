@@ -16,7 +16,7 @@ namespace {
 using testing::HasSubstr;
 
 RigNumbers ShippedRig() {
-  return config::LoadRig(config::FindConfig("flexible_rotor", "rigs")).numbers;
+  return configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs")).numbers;
 }
 
 /// Answers as told, and remembers what was asked.
@@ -89,7 +89,7 @@ TEST(ExcitationApi, SendsATextThatTheControllerReadsAsWhatWasAskedFor) {
     return CommandReply{CommandOutcome::kAccepted, "command excite (cycle 9)"};
   });
   EXPECT_EQ(answer.status, 200);
-  const scenario::Step step = config::ParseExcitation(sent, "test", rig);
+  const scenario::Step step = configuration::ParseExcitation(sent, "test", rig);
   EXPECT_EQ(step.hold_s, 5.0);
   EXPECT_DOUBLE_EQ(step.orbit_limit_m, 75e-6);
   ASSERT_EQ(step.excitation.size(), 1U);

@@ -6,7 +6,7 @@
 
 #include "announced_run.hpp"
 #include "common/crc32.hpp"
-#include "session/log_format.hpp"
+#include "session/log/log_format.hpp"
 
 namespace levitas::dashboard {
 namespace {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "announced_run.hpp"
-#include "session/block_events.hpp"
+#include "session/log/block_events.hpp"
 
 namespace levitas::dashboard {
 namespace {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "diagnosis/report/diagnose_files.hpp"
+#include "diagnosis/diagnose/diagnose_files.hpp"
 #include "tests/unit/diagnosis/moments.hpp"
 
 namespace levitas::diagnosis {
@@ -16,7 +16,7 @@ inline DiagnosisResult NothingFound() {
   s.terms = AllTerms(*s.view, Tolerances{}, 50e-6);
   s.answer.theta_calibrated.assign(s.terms.size(), 0.0);
   s.answer.theta_extended = s.answer.theta_calibrated;
-  s.answer.remainder.channels.resize(s.view->axes);
+  s.answer.residual.channels.resize(s.view->axes);
   s.fastest_rad_per_s = 300.0;
   s.excited = true;
   return s;

@@ -11,8 +11,9 @@
 
 namespace levitas::diagnosis {
 
-inline const config::RigFile& FlexibleRotor() {
-  static const config::RigFile kRig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+inline const configuration::RigFile& FlexibleRotor() {
+  static const configuration::RigFile kRig =
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
   return kRig;
 }
 

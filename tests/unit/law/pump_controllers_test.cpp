@@ -103,9 +103,10 @@ constexpr std::array kPrinted{
 };
 
 StateSpaceConfig PumpLaw() {
-  const auto rig = config::LoadRig(config::FindConfig("turbomolecular_pump", "rigs")).numbers;
-  const auto file = config::FindConfig("turbomolecular_pump", "controllers");
-  return config::LoadController(file, rig).law.state_space.value();
+  const auto rig =
+      configuration::LoadRig(configuration::FindConfig("turbomolecular_pump", "rigs")).numbers;
+  const auto file = configuration::FindConfig("turbomolecular_pump", "controllers");
+  return configuration::LoadController(file, rig).law.state_space.value();
 }
 
 TEST(PumpControllers, HeldOverTheirPeriodGiveEveryPrintedDigitOfThePrintedTransferFunctions) {

@@ -13,7 +13,7 @@ namespace {
 
 /// Two seconds of a coil that is modelled exactly, but for the noise of its probe.
 diagnosis::DiagnosisReport ReportOf(const CauseSet& causes) {
-  const config::RigFile rig = test::LevitatorFile();
+  const configuration::RigFile rig = test::LevitatorFile();
   const NominalRig nominal = NominalOf(rig);
   LevitatorResult result;
   result.found.causes = causes;

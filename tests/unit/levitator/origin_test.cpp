@@ -22,8 +22,8 @@ using test::Entry;
 using test::LevitatorFile;
 using test::StillSeries;
 
-config::RigFile Holding(const std::vector<effect::EffectConfig>& effects) {
-  config::RigFile file = LevitatorFile();
+configuration::RigFile Holding(const std::vector<effect::EffectConfig>& effects) {
+  configuration::RigFile file = LevitatorFile();
   file.plant.effects = effects;
   return file;
 }
@@ -44,7 +44,7 @@ TEST(Origin, RatiosMultiplyAndAllElseAdds) {
 
 // The model of a file that holds effects is that of the plain file with what they are.
 TEST(Origin, EffectsOfTheFileDoWhatTheirNumbersDo) {
-  const config::RigFile file =
+  const configuration::RigFile file =
       Holding({Entry(effect::Id::kStaticLoad, {0.0, 0.02, 0.0}),
                Entry(effect::Id::kRotorMass, {1.05}), Entry(effect::Id::kSensorGain, {0.98}),
                Entry(effect::Id::kSensorNonlinearity, {-20.0, 300.0})});
@@ -66,13 +66,13 @@ TEST(Origin, EffectsOfTheFileDoWhatTheirNumbersDo) {
 }
 
 TEST(Origin, ACalibratedFileSaysOnceWhatItsOwnEffectsAndTheCausesAre) {
-  const config::RigFile file = Holding({Entry(effect::Id::kStaticLoad, {0.0, 0.02, 0.0})});
+  const configuration::RigFile file = Holding({Entry(effect::Id::kStaticLoad, {0.0, 0.02, 0.0})});
   Found found;
   found.extended.theta = Zeros(1);
   found.extended.deviation = Zeros(1);
   found.extended.theta[kLoad] = 0.03;
-  const config::RigFile read =
-      config::ParseRig(CalibratedRig(file, OriginOf(file), found), "calibrated_rig.yaml");
+  const configuration::RigFile read =
+      configuration::ParseRig(CalibratedRig(file, OriginOf(file), found), "calibrated_rig.yaml");
   ASSERT_EQ(read.plant.effects.size(), 1U);
   EXPECT_EQ(read.plant.effects[0].id, effect::Id::kStaticLoad);
   EXPECT_NEAR(read.plant.effects[0].values[1], 0.05, 1e-6);
@@ -109,11 +109,11 @@ Theta Everything() {
   return theta;
 }
 
-config::RigFile Extended(const config::RigFile& file, const Theta& theta) {
+configuration::RigFile Extended(const configuration::RigFile& file, const Theta& theta) {
   Found found;
   found.extended.theta = theta;
   found.extended.deviation = Zeros(1);
-  return config::ParseRig(CalibratedRig(file, OriginOf(file), found), "calibrated_rig.yaml");
+  return configuration::ParseRig(CalibratedRig(file, OriginOf(file), found), "calibrated_rig.yaml");
 }
 
 /// Both coils at work, neither probe's reading made by the model.
@@ -135,7 +135,7 @@ double Farthest(const std::vector<double>& one, const std::vector<double>& other
 // Found, written, read back: the file alone then is the model that was found. One number at a time
 // and all together.
 TEST(Origin, AnExtendedFileIsTheModelThatWasFound) {
-  const config::RigFile file = LevitatorFile();
+  const configuration::RigFile file = LevitatorFile();
   const NominalRig plain = NominalOf(file);
   const Series series = BothAtWork(plain);
   // Begun anew at every other row: a step of the ball without the observer, whose gains go by the
@@ -164,13 +164,13 @@ TEST(Origin, AnExtendedFileIsTheModelThatWasFound) {
 }
 
 TEST(Origin, AnExtendedFileOfAnExtendedFileHoldsEachNumberOnce) {
-  const config::RigFile once = Extended(LevitatorFile(), Everything());
-  const config::RigFile twice = Extended(once, Zeros(1));
-  EXPECT_EQ(config::WriteRig(twice), config::WriteRig(once));
+  const configuration::RigFile once = Extended(LevitatorFile(), Everything());
+  const configuration::RigFile twice = Extended(once, Zeros(1));
+  EXPECT_EQ(configuration::WriteRig(twice), configuration::WriteRig(once));
 }
 
 TEST(Origin, WhatIsInTheFileMayBeFoundToBeLess) {
-  const config::RigFile file = Extended(LevitatorFile(), Everything());
+  const configuration::RigFile file = Extended(LevitatorFile(), Everything());
   const Theta origin = OriginOf(file);
   EXPECT_NEAR(LeastBeside(kDeadBand, origin[kDeadBand]), -0.09, 1e-12);
   EXPECT_EQ(LeastBeside(kSupply, 0.3), Table()[kSupply].least);

@@ -22,7 +22,7 @@ diagnosis::DiagnosisReport Tied(const std::string& cause, const std::vector<std:
 }
 
 scenario::ScenarioConfig Read(const std::string& text) {
-  return config::ParseScenario(text, "next.yaml", test::LevitatorFile().numbers);
+  return configuration::ParseScenario(text, "next.yaml", test::LevitatorFile().numbers);
 }
 
 TEST(LevitatorPlan, LeadsTheBallOverItsStrokeForWhatGoesByTheGap) {

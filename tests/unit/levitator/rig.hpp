@@ -10,8 +10,8 @@
 
 namespace levitas::test {
 
-inline config::RigFile LevitatorFile() {
-  return config::LoadRig(config::FindConfig("two_magnet_levitator", "rigs"));
+inline configuration::RigFile LevitatorFile() {
+  return configuration::LoadRig(configuration::FindConfig("two_magnet_levitator", "rigs"));
 }
 
 /// Rows of 1 ms: the same duty and place throughout, currents as given.

@@ -53,7 +53,7 @@ TEST(MakeSeries, StartsAnewBehindMissingRows) {
 // Rows are in the bearing frame: a rig that is wired the other way round has the same series and
 // the same currents in its coils.
 TEST(MakeSeries, KnowsNothingOfTheWiringOfTheRig) {
-  config::RigFile reversed = LevitatorFile();
+  configuration::RigFile reversed = LevitatorFile();
   reversed.plant.sensor_polarity[0] = reversed.plant.actuator_polarity[0] = -1.0;
   const auto rows = Rows(10'000);
   const Series straight = MakeSeries("run", LevitatorFile(), rows);
@@ -81,12 +81,14 @@ TEST(Stretch, LiesWhereItsPhaseSays) {
 
 TEST(IsLevitator, IsTrueOfTheLevitatorAlone) {
   EXPECT_TRUE(IsLevitator(LevitatorFile().plant));
-  EXPECT_FALSE(IsLevitator(config::LoadRig(config::FindConfig("flexible_rotor", "rigs")).plant));
-  EXPECT_FALSE(IsLevitator(config::LoadRig(config::FindConfig("one_axis", "rigs")).plant));
+  EXPECT_FALSE(IsLevitator(
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs")).plant));
+  EXPECT_FALSE(
+      IsLevitator(configuration::LoadRig(configuration::FindConfig("one_axis", "rigs")).plant));
 }
 
 TEST(CalibratedRigFile, IsReadBackWithTheFoundValuesInItsKeys) {
-  const config::RigFile rig = LevitatorFile();
+  const configuration::RigFile rig = LevitatorFile();
   Found found;
   found.extended.theta = Zeros(1);
   found.extended.deviation = Zeros(1);
@@ -96,8 +98,8 @@ TEST(CalibratedRigFile, IsReadBackWithTheFoundValuesInItsKeys) {
   found.extended.theta[kSensorOffset] = 3e-4;
   found.extended.theta[kLoad] = 0.01;
   found.extended.theta[kDeadBand] = 0.1;
-  const config::RigFile read =
-      config::ParseRig(CalibratedRig(rig, Zeros(0), found), "calibrated_rig.yaml");
+  const configuration::RigFile read =
+      configuration::ParseRig(CalibratedRig(rig, Zeros(0), found), "calibrated_rig.yaml");
   EXPECT_NEAR(read.plant.delay_samples, 1.4, 1e-12);
   const auto& bearing = read.plant.bearings[0];
   EXPECT_NEAR(bearing.magnet.exponential->force_n_per_a2, 1.2 * 3.008878, 1e-9);
@@ -110,7 +112,7 @@ TEST(CalibratedRigFile, IsReadBackWithTheFoundValuesInItsKeys) {
 }
 
 TEST(ReportValues, AreTheKeysAndUnitsOfTheRigFile) {
-  const config::RigFile rig = LevitatorFile();
+  const configuration::RigFile rig = LevitatorFile();
   Found found;
   found.extended.theta = Zeros(1);
   found.extended.deviation = Zeros(1);
@@ -157,43 +159,43 @@ Found DelayFound() {
 }
 
 TEST(ExtendedRigFile, HasTheCausesAndNothingElseThatWasFitted) {
-  const config::RigFile rig = LevitatorFile();
-  config::RigFile expected = rig;
+  const configuration::RigFile rig = LevitatorFile();
+  configuration::RigFile expected = rig;
   expected.plant.delay_samples += 1.4;
-  const config::RigFile read =
-      config::ParseRig(ExtendedRig(rig, Zeros(0), DelayFound()), "extended_rig.yaml");
-  EXPECT_EQ(config::WriteRig(read), config::WriteRig(expected));
+  const configuration::RigFile read =
+      configuration::ParseRig(ExtendedRig(rig, Zeros(0), DelayFound()), "extended_rig.yaml");
+  EXPECT_EQ(configuration::WriteRig(read), configuration::WriteRig(expected));
 }
 
 TEST(ExtendedRigFile, WithoutACauseIsTheRigFileItself) {
-  const config::RigFile rig = LevitatorFile();
+  const configuration::RigFile rig = LevitatorFile();
   Found found = DelayFound();
   found.causes.clear();
-  const config::RigFile read =
-      config::ParseRig(ExtendedRig(rig, Zeros(0), found), "extended_rig.yaml");
-  EXPECT_EQ(config::WriteRig(read), config::WriteRig(rig));
+  const configuration::RigFile read =
+      configuration::ParseRig(ExtendedRig(rig, Zeros(0), found), "extended_rig.yaml");
+  EXPECT_EQ(configuration::WriteRig(read), configuration::WriteRig(rig));
 }
 
 TEST(ExtendedRigFile, KeepsTheEffectsOfTheFileButNotWhatHealthyRecordsHaveShown) {
-  config::RigFile rig = LevitatorFile();
-  rig.plant.effects = config::ParseRig(CalibratedRig(rig, Zeros(0), DelayFound()), "r.yaml")
+  configuration::RigFile rig = LevitatorFile();
+  rig.plant.effects = configuration::ParseRig(CalibratedRig(rig, Zeros(0), DelayFound()), "r.yaml")
                           .plant.effects;  // a sensor's offset of 80 um
   ASSERT_EQ(rig.plant.effects.size(), 1U);
   Theta healthy = OriginOf(rig);
   healthy[kSpring] += 30.0;
-  const config::RigFile read =
-      config::ParseRig(ExtendedRig(rig, healthy, DelayFound()), "extended_rig.yaml");
+  const configuration::RigFile read =
+      configuration::ParseRig(ExtendedRig(rig, healthy, DelayFound()), "extended_rig.yaml");
   ASSERT_EQ(read.plant.effects.size(), 1U);
   EXPECT_EQ(read.plant.effects[0].id, effect::Id::kSensorOffset);
   EXPECT_NEAR(read.plant.effects[0].values[0], 80e-6, 1e-10);
 }
 
 TEST(CalibratedRigFile, HasTheCausesTheCalibratedValuesAndWhatHealthyRecordsHaveShown) {
-  const config::RigFile rig = LevitatorFile();
+  const configuration::RigFile rig = LevitatorFile();
   Theta healthy = OriginOf(rig);
   healthy[kSpring] += 30.0;
-  const config::RigFile read =
-      config::ParseRig(CalibratedRig(rig, healthy, DelayFound()), "calibrated_rig.yaml");
+  const configuration::RigFile read =
+      configuration::ParseRig(CalibratedRig(rig, healthy, DelayFound()), "calibrated_rig.yaml");
   EXPECT_NEAR(read.plant.delay_samples, rig.plant.delay_samples + 1.4, 1e-9);
   const double nominal = rig.plant.bearings[0].magnet.exponential->force_n_per_a2;
   EXPECT_NEAR(read.plant.bearings[0].magnet.exponential->force_n_per_a2, 0.97 * nominal,
@@ -205,14 +207,14 @@ TEST(CalibratedRigFile, HasTheCausesTheCalibratedValuesAndWhatHealthyRecordsHave
 }
 
 TEST(CalibratedRigFile, KeepsTheForceAtTheCentreWhenTheStiffnessAloneIsOther) {
-  const config::RigFile rig = LevitatorFile();
+  const configuration::RigFile rig = LevitatorFile();
   Found found;
   found.extended.theta = Zeros(1);
   found.extended.deviation = Zeros(1);
   found.extended.theta[kForceDecay] = 0.25;
-  const config::RigFile read =
-      config::ParseRig(CalibratedRig(rig, Zeros(0), found), "calibrated_rig.yaml");
-  const auto centre = [](const config::RigFile& file) {
+  const configuration::RigFile read =
+      configuration::ParseRig(CalibratedRig(rig, Zeros(0), found), "calibrated_rig.yaml");
+  const auto centre = [](const configuration::RigFile& file) {
     const auto& magnet = file.plant.bearings[0].magnet;
     return magnet.exponential->force_n_per_a2 *
            std::exp(-magnet.gap_m / magnet.exponential->decay_m);

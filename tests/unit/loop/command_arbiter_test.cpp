@@ -9,7 +9,7 @@
 namespace levitas::loop {
 namespace {
 
-constexpr DeskOptions kOptions{
+constexpr ArbiterOptions kOptions{
     .period_s = 1e-4, .stop_acceleration_rad_per_s2 = 50.0, .standstill_rad_per_s = 1.0};
 
 constexpr std::int64_t kReceivedNs = 123'456'789;
@@ -144,7 +144,7 @@ TEST(CommandArbiter, GivesARequestedEmergencyStopOnceAndBeforeTheEnd) {
 }
 
 TEST(CommandArbiter, BeginsTheEndWhenTheDurationIsOver) {
-  DeskOptions options = kOptions;
+  ArbiterOptions options = kOptions;
   options.duration_s = 1.0;
   CommandArbiter desk(options, nullptr, {});
   EXPECT_EQ(desk.Next(View(0, Mode::kLevitating)).command, OperatorCommand::kNone);
@@ -197,7 +197,7 @@ TEST(CommandArbiter, ServesWhatAFullRingHoldsAndTheRingCountsWhatItRefused) {
 
 // Two desks that see the same give the same: no clock, no history but the view.
 TEST(CommandArbiter, GivesTheSameInputsForTheSameViews) {
-  DeskOptions options = kOptions;
+  ArbiterOptions options = kOptions;
   options.duration_s = 0.2;
   CommandArbiter one(options, nullptr, {});
   CommandArbiter other(options, nullptr, {});

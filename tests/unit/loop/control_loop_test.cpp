@@ -23,8 +23,8 @@ constexpr std::int64_t kPeriod = 100'000;
 
 cycle::CycleConfig ShippedConfig() {
   const auto rig =
-      config::LoadRig(levitas::test::SourceFolder() + "/config/rigs/flexible_rotor.yaml");
-  const auto controller = config::LoadController(
+      configuration::LoadRig(levitas::test::SourceFolder() + "/config/rigs/flexible_rotor.yaml");
+  const auto controller = configuration::LoadController(
       levitas::test::SourceFolder() + "/config/controllers/flexible_rotor.yaml", rig.numbers);
   return {rig.numbers, controller.law, controller.supervisor, controller.synchronous,
           controller.bias};

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "controller/loop/desk_document.hpp"
+#include "controller/loop/arbiter_document.hpp"
 #include "controller/loop/end_of_run.hpp"
 #include "controller/loop/end_table.hpp"
 #include "controller/loop/signal_table.hpp"
@@ -194,9 +194,9 @@ TEST(DeskChapter, IsWhatTheTablesSay) {
   ASSERT_LT(chapter, next) << path << " has no chapter \"Commands and the end of a run\"";
   ASSERT_NE(next, std::string::npos) << path << " has no chapter \"Modes\" after it";
   if (std::getenv("LEVITAS_WRITE_DOCS") != nullptr) {
-    std::ofstream(path) << text.substr(0, chapter) << DeskDocument() << text.substr(next);
+    std::ofstream(path) << text.substr(0, chapter) << ArbiterDocument() << text.substr(next);
   } else {
-    EXPECT_EQ(text.substr(chapter, next - chapter), DeskDocument())
+    EXPECT_EQ(text.substr(chapter, next - chapter), ArbiterDocument())
         << "LEVITAS_WRITE_DOCS=1 makes this test write the chapter of " << path << " anew";
   }
 }

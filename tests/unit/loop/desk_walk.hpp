@@ -50,7 +50,7 @@ struct WalkPlan {
     fall_rad_per_s2 = one_of(0.0, 0.3, 20.0);
     end_at = draw.Bits() % 3 == 0 ? std::nullopt : std::optional(draw.Bits() % 1500);
   }
-  DeskOptions options;
+  ArbiterOptions options;
   bool plays{};
   double obeys{};     ///< share of the commands that the rig follows
   double glitches{};  ///< share of the cycles with a reading that jumps

@@ -19,7 +19,7 @@ namespace levitas::loop {
 namespace {
 
 constexpr std::int64_t kStopPeriod = 100'000;
-constexpr DeskOptions kStopOptions{
+constexpr ArbiterOptions kStopOptions{
     .period_s = 1e-4, .stop_acceleration_rad_per_s2 = 50.0, .standstill_rad_per_s = 1.0};
 constexpr auto kStop = OperatorCommand::kEmergencyStop;
 
@@ -124,8 +124,8 @@ TEST(EmergencyStop, NamesTheCycleToEverybodyWhoAsked) {
 /// The loop on a clock of its own, in real time's order of events.
 struct StopBench {
   StopBench() {
-    const auto rig = config::LoadRig(SourceFolder() + "/config/rigs/flexible_rotor.yaml");
-    const auto controller = config::LoadController(
+    const auto rig = configuration::LoadRig(SourceFolder() + "/config/rigs/flexible_rotor.yaml");
+    const auto controller = configuration::LoadController(
         SourceFolder() + "/config/controllers/flexible_rotor.yaml", rig.numbers);
     cycle.emplace(cycle::CycleConfig{rig.numbers, controller.law, controller.supervisor});
     loop.emplace(LoopOptions{.pace = Pace::kRealtime, .period_ns = kStopPeriod}, port, *cycle, desk,

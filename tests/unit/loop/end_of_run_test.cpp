@@ -17,11 +17,11 @@ constexpr double kSpeed = 300.0;      // rad/s: 6 s to run down
 constexpr double kStandstill = 1.0;   // rad/s
 constexpr double kTripWindowS = 0.5;  // the least time of record after a trip
 
-constexpr DeskOptions kDesk{.period_s = kPeriodS,
-                            .stop_acceleration_rad_per_s2 = kRate,
-                            .standstill_rad_per_s = kStandstill,
-                            .landing_ramp_s = 0.5,
-                            .trip_window_s = kTripWindowS};
+constexpr ArbiterOptions kDesk{.period_s = kPeriodS,
+                               .stop_acceleration_rad_per_s2 = kRate,
+                               .standstill_rad_per_s = kStandstill,
+                               .landing_ramp_s = 0.5,
+                               .trip_window_s = kTripWindowS};
 
 scenario::ScenarioConfig Lift() {
   scenario::ScenarioConfig config;
@@ -78,7 +78,7 @@ TEST(EndOfRun, AfterAReleaseAtSpeedUnderAScenarioTheDeskStaysUntilTheRotorStands
 }
 
 TEST(EndOfRun, AfterAReleaseAtSpeedADurationThatIsOverWaitsUntilTheRotorStands) {
-  DeskOptions options = kDesk;
+  ArbiterOptions options = kDesk;
   options.duration_s = 0.1;
   CommandArbiter desk(options, nullptr, {});
   LetGo rotor(desk);

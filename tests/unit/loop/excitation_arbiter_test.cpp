@@ -1,4 +1,4 @@
-// Test signals from the network: ExcitationPool and what the operator's desk makes of it.
+// Test signals from the network: ExcitationPool and what the command arbiter makes of it.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPeriodS = 1e-4;
 constexpr double kAmplitudeA = 0.25;
-constexpr DeskOptions kExcitationOptions{
+constexpr ArbiterOptions kExcitationOptions{
     .period_s = kPeriodS, .stop_acceleration_rad_per_s2 = 50.0, .standstill_rad_per_s = 1.0};
 constexpr auto kExcite = OperatorCommand::kExcite;
 constexpr auto kEnd = OperatorCommand::kEndExcitation;

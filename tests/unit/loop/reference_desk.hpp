@@ -25,8 +25,8 @@ struct EndSoFar {
 
 class ReferenceDesk {
  public:
-  ReferenceDesk(const DeskOptions& options, scenario::ScenarioPlayer* player,
-                const RemoteDesk& remote)
+  ReferenceDesk(const ArbiterOptions& options, scenario::ScenarioPlayer* player,
+                const RemoteCommands& remote)
       : options_(options),
         player_(player),
         remote_(remote),
@@ -210,9 +210,9 @@ class ReferenceDesk {
     }
   }
 
-  DeskOptions options_;
+  ArbiterOptions options_;
   scenario::ScenarioPlayer* player_;
-  RemoteDesk remote_;
+  RemoteCommands remote_;
   RunDown run_down_;
   scenario::ExcitationGuard guard_;
   std::optional<std::uint64_t> first_;

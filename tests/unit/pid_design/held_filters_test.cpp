@@ -17,8 +17,9 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const config::RigFile& TenKilohertz() {
-  static const config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+const configuration::RigFile& TenKilohertz() {
+  static const configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
   return rig;
 }
 

@@ -1,7 +1,7 @@
 // A gain of the current in the force law, and the limits of the coils.
 #include <gtest/gtest.h>
 
-#include "plant_sim/plant/effects/effect_forces.hpp"
+#include "plant_sim/plant/applied_effects/effect_forces.hpp"
 
 namespace levitas::plant {
 namespace {

@@ -1,7 +1,7 @@
 // From the entries of a geared rig to its misaligned couplings: one each, with the force and the
 // error of rotation that it names. What the shafts then do is in tests/loop/gears.
 
-#include "plant_sim/plant/effects/coupling_effects.hpp"
+#include "plant_sim/plant/applied_effects/coupling_effects.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // What the iron remembers and what a sensor reads beside the motion.
 
-#include "plant_sim/plant/effects/effect_signals.hpp"
+#include "plant_sim/plant/applied_effects/effect_signals.hpp"
 
 #include <gtest/gtest.h>
 

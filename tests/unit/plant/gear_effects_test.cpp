@@ -1,7 +1,7 @@
 // From the entries of a geared rig to its teeth: each entry does what its row of the catalogue
 // says, and strength 0 is the nominal gear, bit for bit.
 
-#include "plant_sim/plant/effects/gear_effects.hpp"
+#include "plant_sim/plant/applied_effects/gear_effects.hpp"
 
 #include <gtest/gtest.h>
 

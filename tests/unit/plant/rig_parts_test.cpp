@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "plant_sim/plant/applied_effects/apply_effects.hpp"
 #include "plant_sim/plant/bearing_frame.hpp"
 #include "plant_sim/plant/coils_of.hpp"
-#include "plant_sim/plant/effects/apply_effects.hpp"
 #include "plant_sim/plant/eigen_index.hpp"
 #include "plant_sim/plant/operating_point.hpp"
 #include "plant_sim/plant/plant_model.hpp"

@@ -87,8 +87,8 @@ class Run : public testing::Test {
   ExitStatus With(port::RigLink& link) {
     options_.rig = "flexible_rotor";
     options_.json = folder_ / "plant.json";
-    const config::RigFile rig =
-        config::LoadRig(levitas::test::SourceFolder() + "/config/rigs/flexible_rotor.yaml");
+    const configuration::RigFile rig =
+        configuration::LoadRig(levitas::test::SourceFolder() + "/config/rigs/flexible_rotor.yaml");
     const ExitStatus status = RunPlant(
         {.program = kMain, .options = options_, .rig = rig, .link = link, .where = "nowhere"});
     std::ifstream file(options_.json);

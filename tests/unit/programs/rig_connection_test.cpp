@@ -10,8 +10,8 @@
 namespace levitas::controller_program {
 namespace {
 
-config::RigFile Rig() {
-  return config::LoadRig(levitas::test::SourceFolder() + "/config/rigs/flexible_rotor.yaml");
+configuration::RigFile Rig() {
+  return configuration::LoadRig(levitas::test::SourceFolder() + "/config/rigs/flexible_rotor.yaml");
 }
 
 TEST(TelemetryNetwork, IsThatOfAPortWithLcm) {
@@ -64,7 +64,7 @@ TEST(TelemetryNetwork, RefusesAPortThatNobodyTakesAndNamesTheFormsOfBoth) {
 }
 
 TEST(ApplyPort, LeavesARigOverLcmAsItsFileSays) {
-  config::RigFile rig = Rig();
+  configuration::RigFile rig = Rig();
   const double delay_samples = rig.plant.delay_samples;
   ControllerOptions options;
   ApplyPort(options, rig);

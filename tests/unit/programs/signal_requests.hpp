@@ -9,7 +9,7 @@
 namespace levitas::controller_program::test {
 
 inline RigNumbers ShippedRig() {
-  return config::LoadRig(levitas::test::SourceFolder() + "/config/rigs/flexible_rotor.yaml")
+  return configuration::LoadRig(levitas::test::SourceFolder() + "/config/rigs/flexible_rotor.yaml")
       .numbers;
 }
 

@@ -31,9 +31,9 @@ class NoRig final : public RigConnection {
 
 cycle::CycleConfig Config() {
   const std::string folder = levitas::test::SourceFolder() + "/config/";
-  const auto rig = config::LoadRig(folder + "rigs/flexible_rotor.yaml");
+  const auto rig = configuration::LoadRig(folder + "rigs/flexible_rotor.yaml");
   const auto controller =
-      config::LoadController(folder + "controllers/flexible_rotor.yaml", rig.numbers);
+      configuration::LoadController(folder + "controllers/flexible_rotor.yaml", rig.numbers);
   return {rig.numbers, controller.law, controller.supervisor};
 }
 

@@ -15,27 +15,27 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string ShippedRig() { return config::FindConfig("flexible_rotor", "rigs"); }
+std::string ShippedRig() { return configuration::FindConfig("flexible_rotor", "rigs"); }
 
-double ForcePerAmpere(const config::RigFile& rig) {
+double ForcePerAmpere(const configuration::RigFile& rig) {
   const auto& magnet = rig.plant.bearings.front().magnet;
   return magnet::ForcePerCurrent(plant::MagnetOf(magnet), magnet.bias_current_a);
 }
 
-double StiffnessOf(const config::RigFile& rig) {
+double StiffnessOf(const configuration::RigFile& rig) {
   const auto& magnet = rig.plant.bearings.front().magnet;
   return magnet::NegativeStiffness(plant::MagnetOf(magnet), magnet.bias_current_a);
 }
 
 TEST(RigAsRun, IsTheFilesWithoutABiasCurrentOfItsOwn) {
-  const config::RigFile file = config::LoadRig(ShippedRig());
+  const configuration::RigFile file = configuration::LoadRig(ShippedRig());
   const RigAsRun as_run = ReadRigAsRun(ShippedRig(), {});
-  EXPECT_EQ(as_run.text, config::WriteRig(file));
+  EXPECT_EQ(as_run.text, configuration::WriteRig(file));
   EXPECT_EQ(as_run.rig.numbers.bias_current_a, file.numbers.bias_current_a);
 }
 
 TEST(RigAsRun, KeepsTheMagnetsSoThatTheirForceGrowsWithTheBias) {
-  const config::RigFile file = config::LoadRig(ShippedRig());
+  const configuration::RigFile file = configuration::LoadRig(ShippedRig());
   const RigAsRun as_run =
       ReadRigAsRun(ShippedRig(), {.bias_current_a = 0.8 * file.numbers.bias_current_a});
   EXPECT_NEAR(ForcePerAmpere(as_run.rig) / ForcePerAmpere(file), 0.8, 1e-12);  // ki ~ i0
@@ -44,7 +44,7 @@ TEST(RigAsRun, KeepsTheMagnetsSoThatTheirForceGrowsWithTheBias) {
 
 TEST(RigAsRun, IsInItsTextAsItIs) {
   const RigAsRun as_run = ReadRigAsRun(ShippedRig(), {.bias_current_a = 0.8});
-  const config::RigFile read = config::ParseRig(as_run.text, "text");
+  const configuration::RigFile read = configuration::ParseRig(as_run.text, "text");
   EXPECT_EQ(read.numbers.bias_current_a, 0.8);
   for (const auto& bearing : read.plant.bearings) EXPECT_EQ(bearing.magnet.bias_current_a, 0.8);
 }
@@ -65,8 +65,8 @@ TEST(RigAsRun, AddsEffectsBehindThoseOfTheFile) {
   const RigAsRun as_run = ReadRigAsRun(
       ShippedRig(), {.effects = {"{id: coupling_stiffness, direct_n_per_m: 0, cross_n_per_m: 5e4}",
                                  "- id: misalignment, force_n: 0.4, order: -3"}});
-  const auto read = config::ParseRig(as_run.text, "text").plant.effects;
-  ASSERT_EQ(read.size(), config::LoadRig(ShippedRig()).plant.effects.size() + 2);
+  const auto read = configuration::ParseRig(as_run.text, "text").plant.effects;
+  ASSERT_EQ(read.size(), configuration::LoadRig(ShippedRig()).plant.effects.size() + 2);
   EXPECT_EQ(read[read.size() - 2].id, effect::Id::kCouplingStiffness);
   EXPECT_EQ(read.back().id, effect::Id::kMisalignment);
   EXPECT_EQ(as_run.rig.plant.effects.size(), read.size());
@@ -88,7 +88,7 @@ TEST(RigAsRun, RefusesAnEntryThatNoRigFileMayHaveAndNamesIt) {
 
 /// The shipped rig with effects of its own, as a file.
 std::string WithItsOwnEffects(const test::ScratchFolder& folder) {
-  std::string text = config::WriteRig(config::LoadRig(ShippedRig()));
+  std::string text = configuration::WriteRig(configuration::LoadRig(ShippedRig()));
   const std::string none = "\neffects: []\n";
   const auto at = text.find(none);
   EXPECT_NE(at, std::string::npos);
@@ -104,7 +104,7 @@ std::string WithItsOwnEffects(const test::ScratchFolder& folder) {
 TEST(RigAsRun, KeepsTheEffectsOfTheFileBeforeThoseAdded) {
   const test::ScratchFolder folder;
   const std::string path = WithItsOwnEffects(folder);
-  const config::RigFile file = config::LoadRig(path);
+  const configuration::RigFile file = configuration::LoadRig(path);
   ASSERT_EQ(file.plant.effects.size(), 2U);
   const RigAsRun as_run =
       ReadRigAsRun(path, {.effects = {"id: misalignment, force_n: 4, order: 3",
@@ -130,10 +130,11 @@ TEST(RigAsRun, KeepsTheEffectsOfTheFileBeforeThoseAdded) {
 TEST(RigAsRun, ChangesNothingButTheEffects) {
   const test::ScratchFolder folder;
   const std::string path = WithItsOwnEffects(folder);
-  config::RigFile as_run = ReadRigAsRun(path, {.effects = {"id: extra_delay, delay_us: 20"}}).rig;
+  configuration::RigFile as_run =
+      ReadRigAsRun(path, {.effects = {"id: extra_delay, delay_us: 20"}}).rig;
   ASSERT_EQ(as_run.plant.effects.size(), 3U);
   as_run.plant.effects.pop_back();
-  EXPECT_EQ(config::WriteRig(as_run), config::WriteRig(config::LoadRig(path)));
+  EXPECT_EQ(configuration::WriteRig(as_run), configuration::WriteRig(configuration::LoadRig(path)));
   const RigAsRun both =
       ReadRigAsRun(path, {.bias_current_a = 0.8, .effects = {"id: extra_delay, delay_us: 20"}});
   EXPECT_EQ(both.rig.numbers.bias_current_a, 0.8);

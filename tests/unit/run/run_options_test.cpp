@@ -33,7 +33,9 @@ TEST(CheckPort, RefusesAnotherTransportAsUsageWithWhatIsAllowed) {
   }
 }
 
-config::RigFile Rig() { return config::LoadRig(config::FindConfig("flexible_rotor", "rigs")); }
+configuration::RigFile Rig() {
+  return configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
+}
 
 socketcan::LinkKind Wired(const std::string& interface) {
   return interface.starts_with("v") ? socketcan::LinkKind::kVirtual : socketcan::LinkKind::kReal;

@@ -11,12 +11,12 @@
 namespace levitas::uncertainty {
 namespace {
 
-config::RigFile Shipped(const std::string& name) {
-  return config::LoadRig(test::SourceFolder() + "/config/rigs/" + name + ".yaml");
+configuration::RigFile Shipped(const std::string& name) {
+  return configuration::LoadRig(test::SourceFolder() + "/config/rigs/" + name + ".yaml");
 }
 
 TEST(DrawWithin, ScattersByTheStatedDeviationAndNotBeyondThreeOfThem) {
-  config::RigFile rig = Shipped("flexible_rotor");
+  configuration::RigFile rig = Shipped("flexible_rotor");
   rig.tolerances->sensor_gain = 0.02;
   Random draw(5);
   double squares = 0.0;
@@ -31,14 +31,14 @@ TEST(DrawWithin, ScattersByTheStatedDeviationAndNotBeyondThreeOfThem) {
 }
 
 TEST(DrawWithin, ChangesNothingWhereNothingIsTolerated) {
-  config::RigFile rig = Shipped("flexible_rotor");
-  rig.tolerances = config::Tolerances{};
+  configuration::RigFile rig = Shipped("flexible_rotor");
+  rig.tolerances = configuration::Tolerances{};
   auto& t = *rig.tolerances;
   t.amplifier_bandwidth = t.sensor_gain = t.sensor_bandwidth = t.sensor_offset_m = 0.0;
   t.sensor_position_m = t.sensor_runout_m = t.delay_samples = t.rotor_mass = 0.0;
   t.gyroscopic_inertia = t.unbalance_kg_m = t.static_load_n = 0.0;
   Random draw(5);
-  const config::RigFile same = DrawWithin(rig, draw);
+  const configuration::RigFile same = DrawWithin(rig, draw);
   EXPECT_EQ(same.plant.delay_samples, rig.plant.delay_samples);
   for (const auto& entry : same.plant.effects) {
     const bool ratio =
@@ -55,11 +55,11 @@ TEST(DrawWithin, ChangesNothingWhereNothingIsTolerated) {
 TEST(DrawWithin, IsARigThatCanBeSimulatedAndWrittenForEveryShippedOne) {
   for (const char* name : {"flexible_rotor", "turbomolecular_pump", "geared_rotor_4dof",
                            "geared_rotor_8dof", "geared_rotor_12dof"}) {
-    const config::RigFile rig = Shipped(name);
+    const configuration::RigFile rig = Shipped(name);
     Random draw(11);
-    const config::RigFile drawn = DrawWithin(rig, draw);
+    const configuration::RigFile drawn = DrawWithin(rig, draw);
     EXPECT_NO_THROW(plant::PlantModel{drawn.plant}) << name;
-    EXPECT_NO_THROW((void)config::ParseRig(config::WriteRig(drawn), name)) << name;
+    EXPECT_NO_THROW((void)configuration::ParseRig(configuration::WriteRig(drawn), name)) << name;
   }
 }
 

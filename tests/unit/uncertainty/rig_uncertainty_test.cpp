@@ -10,9 +10,9 @@
 namespace levitas::uncertainty {
 namespace {
 
-const config::RigFile& FlexibleRotor() {
-  static const config::RigFile rig =
-      config::LoadRig(test::SourceFolder() + "/config/rigs/flexible_rotor.yaml");
+const configuration::RigFile& FlexibleRotor() {
+  static const configuration::RigFile rig =
+      configuration::LoadRig(test::SourceFolder() + "/config/rigs/flexible_rotor.yaml");
   return rig;
 }
 
@@ -68,7 +68,7 @@ TEST(RigUncertainty, StatedIsTheSameForEveryModeAndAxis) {
 
 // A file with entries of its own, as an identification writes it: one axis is weak, all are stiff.
 TEST(RigUncertainty, DrawsAboutTheEntriesThatTheFileHas) {
-  config::RigFile rig = FlexibleRotor();
+  configuration::RigFile rig = FlexibleRotor();
   const auto add = [&](effect::Id id, std::uint32_t axes, double value) {
     effect::EffectConfig entry;
     entry.id = id;
@@ -80,7 +80,7 @@ TEST(RigUncertainty, DrawsAboutTheEntriesThatTheFileHas) {
   add(effect::Id::kDisplacementStiffness, effect::kAllAxes, 1.2);
   const auto parameters = Stated(rig, {.current_gain = 0.05, .stiffness = 0.1});
   const std::vector<double> highest(parameters.size(), 1.0);
-  const config::RigFile drawn = At(rig, parameters, highest);
+  const configuration::RigFile drawn = At(rig, parameters, highest);
   EXPECT_NO_THROW(plant::PlantModel{drawn.plant});
   const auto share = [&](effect::Id id, std::size_t axis) {
     double product = 1.0;
@@ -95,14 +95,15 @@ TEST(RigUncertainty, DrawsAboutTheEntriesThatTheFileHas) {
 }
 
 TEST(RigUncertainty, DrawsTheModeInPlaceOfTheFilesEntry) {
-  config::RigFile rig = FlexibleRotor();
+  configuration::RigFile rig = FlexibleRotor();
   effect::EffectConfig entry;
   entry.id = effect::Id::kModalFrequency;
   entry.mode = 2;
   entry.values[0] = 260.0;
   rig.plant.effects.push_back(entry);
   const auto parameters = Stated(rig, {.mode_hz = 2.0});
-  const config::RigFile drawn = At(rig, parameters, std::vector<double>(parameters.size(), 0.5));
+  const configuration::RigFile drawn =
+      At(rig, parameters, std::vector<double>(parameters.size(), 0.5));
   EXPECT_NO_THROW(plant::PlantModel{drawn.plant});
   const auto moved = Of(Kind::kModeFrequency, parameters)[1];
   EXPECT_NEAR(moved.nominal, 260.0, 1e-9);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "session/block_events.hpp"
+#include "session/log/block_events.hpp"
 
 namespace levitas::verdict {
 namespace {

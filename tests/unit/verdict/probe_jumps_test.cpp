@@ -15,9 +15,9 @@ namespace {
 constexpr double kJumpM = 80e-6;
 constexpr std::size_t kAxis = 2;  // nde_x
 
-const config::RigFile& Rig() {
-  static const config::RigFile rig =
-      config::LoadRig(test::SourceFolder() + "/config/rigs/flexible_rotor.yaml");
+const configuration::RigFile& Rig() {
+  static const configuration::RigFile rig =
+      configuration::LoadRig(test::SourceFolder() + "/config/rigs/flexible_rotor.yaml");
   return rig;
 }
 

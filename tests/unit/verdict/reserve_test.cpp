@@ -51,10 +51,11 @@ TEST(Reserve, OfNoiseAddsTheStepOfTheConverterToThatOfTheProbe) {
 }
 
 struct ShippedLoop {
-  config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+  configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
   law::LawConfig law =
-      config::LoadController(config::FindConfig("flexible_rotor_commissioned", "controllers"),
-                             rig.numbers)
+      configuration::LoadController(
+          configuration::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers)
           .law;
   [[nodiscard]] std::vector<double> ResonantDamping(double speed_rad_per_s) const {
     std::vector<double> damping;

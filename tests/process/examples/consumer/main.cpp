@@ -27,7 +27,7 @@ double OwnEigen() {
 
 bool CatchesWhatTheLibraryThrows() {
   try {
-    (void)config::ParseRig("kind: rig\nname: 7", "mine.yaml");
+    (void)configuration::ParseRig("kind: rig\nname: 7", "mine.yaml");
   } catch (const BadInput& problem) {
     return problem.status() == ExitStatus::kBadInput;
   }
@@ -36,7 +36,7 @@ bool CatchesWhatTheLibraryThrows() {
 
 bool CatchesItAsWhatItIsBelow() {
   try {
-    (void)config::FindConfig("none_of_that_name", "rigs");
+    (void)configuration::FindConfig("none_of_that_name", "rigs");
   } catch (const std::runtime_error&) {
     return true;
   }
@@ -48,9 +48,9 @@ bool CatchesItAsWhatItIsBelow() {
 int main() {
   if (!CatchesWhatTheLibraryThrows() || !CatchesItAsWhatItIsBelow()) return 2;
   if (!(OwnEigen() < 1e-9)) return 3;
-  const auto rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
-  const auto controller =
-      config::LoadController(config::FindConfig("flexible_rotor", "controllers"), rig.numbers);
+  const auto rig = configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
+  const auto controller = configuration::LoadController(
+      configuration::FindConfig("flexible_rotor", "controllers"), rig.numbers);
   plant::Plant plant(rig.plant, 7);
   plant.RestInTouchdown();
   cycle::ControlCycle control({rig.numbers, controller.law, controller.supervisor});

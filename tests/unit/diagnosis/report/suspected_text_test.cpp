@@ -1,0 +1,60 @@
+// What a report says of a suspected cause, and of numbers outside their tolerance.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "diagnosis/report/build_report.hpp"
+#include "diagnosis/report/report_text.hpp"
+#include "tests/unit/diagnosis/answers.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+/// A report of a suspected cause.
+DiagnosisReport Suspected(Doubt doubt, double probability) {
+  DiagnosisResult found = Found("eddy_current", "de_x");
+  found.answer.verdict = Verdict::kSuspected;
+  found.answer.doubt = doubt;
+  found.answer.probability = probability;
+  return BuildReport(found);
+}
+
+TEST(SuspectedTest, SaysWhyAndHowLikely) {
+  const DiagnosisReport weak = Suspected(Doubt::kWeakEvidence, 0.72);
+  EXPECT_THAT(weak.verdict_sentence, AllOf(HasSubstr("Suspected: eddy_current at de_x"),
+                                           HasSubstr("72 %"), HasSubstr("not decisive")));
+  EXPECT_EQ(weak.confidence, 0.72);
+  EXPECT_NE(weak.next_experiment, kNoneNeeded);
+  EXPECT_THAT(Suspected(Doubt::kValidationHarm, 0.01).verdict_sentence,
+              HasSubstr("validation data refute it"));
+  EXPECT_THAT(Suspected(Doubt::kMovedNumber, 0.98).verdict_sentence,
+              HasSubstr("all but 2 % of healthy rigs"));
+  EXPECT_THAT(Suspected(Doubt::kResidualIsLeft, 0.99).verdict_sentence,
+              HasSubstr("a residual is left"));
+}
+
+TEST(SuspectedTest, IsNotSaidOfANamedCause) {
+  const DiagnosisReport named = BuildReport(Found("eddy_current", "de_x"));
+  EXPECT_THAT(named.suspected_because, IsEmpty());
+  EXPECT_THAT(named.verdict_sentence, Not(HasSubstr("Suspected")));
+}
+
+TEST(OutsideToleranceTest, NamesEveryNumberBeyondThreeTolerances) {
+  CalibratedValue far;
+  far.effect = "sensor_offset";
+  far.place = "de_x";
+  far.key = "offset_um";
+  far.from_file = 3.7;
+  CalibratedValue near = far;
+  near.from_file = 2.9;
+  EXPECT_THAT(OutsideTolerance({near, far}),
+              ElementsAre("sensor_offset offset_um of de_x (3.7 tolerances)"));
+}
+
+}  // namespace
+}  // namespace levitas::diagnosis
