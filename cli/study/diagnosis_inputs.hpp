@@ -1,6 +1,6 @@
 #pragma once
-// Refuses records that would vouch for themselves: the same data given twice, fitted and validated on,
-// or diagnosed and called healthy.
+// Refuses records that would vouch for themselves: the same data given twice, fitted and validated
+// on, or diagnosed and called healthy.
 //
 // Same     the same file by another path, or another file with the same bytes. A session and its
 //          own CSV are known as the same by their rows (diagnosis/records/same_rows.hpp), which

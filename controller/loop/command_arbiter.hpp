@@ -6,9 +6,9 @@
 //          sender gave before a stop is dropped after it: a stop is not undone by what is older.
 // The end  a finished or failed scenario, RequestStop and the duration all end in the same way:
 //          run down under the drive, land, amplifiers off. A trip under a scenario ends the same
-//          way; without a scenario the arbiter waits for a reset. Where the magnets have let go of a
-//          turning rotor the arbiter stays, and the supervisor brakes, until the rotor stands or its
-//          brake fails. As a table: end_table.hpp; what happens in it: end_of_run.hpp.
+//          way; without a scenario the arbiter waits for a reset. Where the magnets have let go of
+//          a turning rotor the arbiter stays, and the supervisor brakes, until the rotor stands or
+//          its brake fails. As a table: end_table.hpp; what happens in it: end_of_run.hpp.
 // Test signals  a remote one is added to the scenario's. It begins in the cycle after its command,
 //          unless that was refused, and ends by its own length, by command, by a new one, with a
 //          trip and where the mode does not pass it on; each end is a command of the record. As a

@@ -1,5 +1,5 @@
 #pragma once
-// How a run ends, as a table: every state, what the arbiter does in it, and every edge between states.
+// How a run ends, as a table: every state, what the arbiter does in it, every edge between states.
 // The chapter "Commands and the end of a run" of docs/safety.md is written from it.
 //
 // Cycle      each asks up to three questions, in this order, and each answer is one event: whether

@@ -6,6 +6,7 @@
 #include "diagnosis/levitator/build_report.hpp"
 #include "diagnosis/records/load.hpp"
 #include "diagnosis/records/same_rows.hpp"
+#include "diagnosis/report/levitation.hpp"
 
 namespace levitas::levitator {
 namespace {

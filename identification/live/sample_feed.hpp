@@ -6,8 +6,8 @@
 //            or coast-down; until the later one is here, it waits. Rows left out are a pause, rows
 //            that never came a gap (online_recursion.hpp).
 // Waiting    of at most kMostWaiting batches; the oldest are dropped then, as missing.
-// Frame      bearing frame (session/log/record_frame.hpp). Inputs are the commanded control currents,
-//            test signal included, outputs the positions read in the same cycle.
+// Frame      bearing frame (session/log/record_frame.hpp). Inputs are the commanded control
+//            currents, test signal included, outputs the positions read in the same cycle.
 // Units      SI. Thread one. Failure: a batch of other axes than the rig's is refused.
 // Not done   a cycle whose frame did not arrive repeats the reading before it: no batch says so.
 

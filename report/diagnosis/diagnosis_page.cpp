@@ -7,8 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "diagnosis/report/advice.hpp"
-#include "diagnosis/report/report_text.hpp"
+#include "diagnosis/report/sentences.hpp"
 #include "report/diagnosis/diagnosis_text.hpp"
 #include "report/diagnosis/forecast_section.hpp"
 #include "report/diagnosis/rotor_sketch.hpp"
@@ -24,6 +23,7 @@ using diagnosis::DiagnosisReport;
 using diagnosis::ReportCandidate;
 using diagnosis::ReportFit;
 using diagnosis::ReportRunFit;
+using diagnosis::ReportSentences;
 
 constexpr const char* kStyle =
     "body{font:16px/1.5 sans-serif;max-width:64em;margin:2em auto;padding:0 1em;color:#222}"
@@ -78,12 +78,7 @@ std::string Spectra(const DiagnosisReport& s) {
   return svg::Draw(figure);
 }
 
-std::string NameInWords(const DiagnosisReport& s, const std::string& effect) {
-  const effect::Words* words = diagnosis::FindWords(s, effect);
-  return words == nullptr ? "" : std::string(words->name);
-}
-
-std::string Ranking(const DiagnosisReport& s) {
+std::string Ranking(const DiagnosisReport& s, const ReportSentences& said) {
   constexpr std::size_t kShown = 8;
   html::Table first({{"what"},
                      {"effect"},
@@ -94,7 +89,7 @@ std::string Ranking(const DiagnosisReport& s) {
   for (std::size_t i = 0; i < s.candidates.size(); ++i) {
     const ReportCandidate& c = s.candidates[i];
     (i < kShown ? first : rest)
-        .Add({NameInWords(s, c.effect), c.effect, c.place,
+        .Add({said.candidates[i], c.effect, c.place,
               std::isfinite(c.evidence_nat) ? fmt::format("{:.1f}", c.evidence_nat) : "-",
               c.reason});
   }
@@ -135,7 +130,7 @@ std::string Left(const DiagnosisReport& s) {
          "little, the evidence (nat: logarithm of the odds) decides on a cause, not this.</p>\n";
 }
 
-std::string CalibrationTable(const DiagnosisReport& s) {
+std::string CalibrationTable(const DiagnosisReport& s, const ReportSentences& said) {
   html::Table significant({{"effect"},
                            {"where", Kind::kKey},
                            {"key"},
@@ -144,8 +139,9 @@ std::string CalibrationTable(const DiagnosisReport& s) {
                            {"std", Kind::kNumber},
                            {"tolerance", Kind::kNumber}});
   html::Table rest = significant;
-  for (const auto& v : s.calibrated) {
-    (diagnosis::IsSignificant(v) ? significant : rest)
+  for (std::size_t i = 0; i < s.calibrated.size(); ++i) {
+    const diagnosis::CalibratedValue& v = s.calibrated[i];
+    (said.is_significant[i] ? significant : rest)
         .Add({v.effect, v.place, v.key, AtPhase(v.nominal, v.nominal_phase_rad),
               AtPhase(v.calibrated, v.phase_rad), fmt::format("{:.2g}", v.deviation),
               fmt::format("{:.2g}", v.tolerance)});
@@ -165,13 +161,13 @@ std::string CalibrationTable(const DiagnosisReport& s) {
 }
 
 /// Seconds, gain and limits in a sentence each.
-std::string Summary(const DiagnosisReport& s) {
+std::string Summary(const DiagnosisReport& s, const ReportSentences& said) {
   const bool part = s.seconds_used < 0.99 * s.seconds_of_data;
   const std::string text =
       part ? fmt::format("From {:.1f} s of {:.1f} s in flight, spans spread over all records.",
                          s.seconds_used, s.seconds_of_data)
            : fmt::format("From {:.1f} s in flight.", s.seconds_of_data);
-  return fmt::format("{} {}", text, GainSentence(s));
+  return fmt::format("{} {}", text, said.gain);
 }
 
 std::string Percent(double value) { return fmt::format("{:.2f}", value); }
@@ -209,7 +205,7 @@ std::string FitTable(const DiagnosisReport& s) {
   return table.Html();
 }
 
-std::string ParameterTable(const DiagnosisReport& s) {
+std::string ParameterTable(const DiagnosisReport& s, const ReportSentences& said) {
   html::Table table({{"effect"},
                      {"where"},
                      {"key"},
@@ -218,18 +214,16 @@ std::string ParameterTable(const DiagnosisReport& s) {
                      {"from, to"},
                      {"which is"}});
   bool form = false;
-  for (const auto& [p, places] : SharedParameters(s)) {
+  for (const auto& [p, places, bracket] : SharedParameters(s, said)) {
     form = form || p.form;
     const bool bracketed = p.low < p.high;
     table.Add({p.effect, places, p.key, fmt::format("{:.5g}", p.value), p.unit,
                bracketed ? fmt::format("{:.5g} to {:.5g}", p.low, p.high) : "-",
-               bracketed ? std::string(diagnosis::BracketName(p)) : ""});
+               bracketed ? bracket : ""});
   }
   if (table.empty()) return {};
   std::string totals;
-  for (const std::string& total : diagnosis::TotalSentences(s.parameters)) {
-    totals += Paragraph(total + ".");
-  }
+  for (const std::string& total : said.totals) totals += Paragraph(total + ".");
   return "<h2>Parameters, as in a rig file</h2>\n" + table.Html() + totals +
          (form ? Paragraph("Neighbouring forms: of a grid of laws that was tried; how well the "
                            "value is known they do not say.")
@@ -258,8 +252,8 @@ std::string RunsTable(const DiagnosisReport& s) {
 }
 
 /// Above the verdict; empty when the records are in order.
-std::string ErrorsOfRecords(const DiagnosisReport& s) {
-  const std::string html = Paragraphs(diagnosis::RecordErrorSentences(s.record_errors), "verdict");
+std::string ErrorsOfRecords(const ReportSentences& said) {
+  const std::string html = Paragraphs(said.record_errors, "verdict");
   return html.empty() ? "" : html + Paragraph(diagnosis::kAsMended);
 }
 
@@ -274,7 +268,7 @@ std::string WithPowers(std::string text) {
 }
 
 /// Headline, what it does, what to do, the rotor with the place.
-std::string Advice(const DiagnosisReport& s) {
+std::string Advice(const DiagnosisReport& s, const ReportSentences& said) {
   const char* tone = s.severity == diagnosis::Severity::kSevere   ? " severe"
                      : s.severity == diagnosis::Severity::kMarked ? " marked"
                                                                   : "";
@@ -286,7 +280,7 @@ std::string Advice(const DiagnosisReport& s) {
     if (!text.empty()) advice.Add({name, text});
   }
   return fmt::format("<p class=\"verdict{}\">{}</p>\n", tone, WithPowers(Escaped(s.headline))) +
-         advice.Html() + RotorSketch(s);
+         advice.Html() + RotorSketch(s, said.marks);
 }
 
 std::string Listed(const char* name, const std::vector<std::string>& files) {
@@ -309,13 +303,14 @@ std::string Origin(const DiagnosisReport& s) {
 }  // namespace
 
 std::string DiagnosisPage(const DiagnosisReport& s) {
+  const ReportSentences said = diagnosis::SentencesOf(s);
   const std::string head = fmt::format(
       "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>Diagnosis of "
       "{0}</title><style>{1}</style></head><body>\n<h1>Diagnosis of {0}</h1>\n",
       Escaped(s.rig_name), kStyle);
   const std::string detail =
       fmt::format("<h2>In detail</h2>\n<p>{}</p>\n", WithPowers(Escaped(s.verdict_sentence))) +
-      Paragraph(fmt::format("{} {}", Summary(s), s.healthy_sentence));
+      Paragraph(fmt::format("{} {}", Summary(s, said), s.healthy_sentence));
   const std::string fit =
       "<h2>Fit</h2>\n" + FitTable(s) +
       Paragraph(
@@ -323,10 +318,11 @@ std::string DiagnosisPage(const DiagnosisReport& s) {
           "the causes. Ceiling: the sensors' noise alone. " +
           FitRemarks(s)) +
       Paragraph(ErrorSharesSentence(s));
-  return head + Origin(s) + ErrorsOfRecords(s) + Advice(s) + detail +
-         Paragraphs(s.levitation.sentences) + Left(s) + Spectra(s) + ParameterTable(s) +
-         CalibrationTable(s) + ForecastSection(s) + "<h2>Ranking, and why not the others</h2>\n" +
-         Ranking(s) + fit + ChannelTable(s) + RunsTable(s) + "</body></html>\n";
+  return head + Origin(s) + ErrorsOfRecords(said) + Advice(s, said) + detail +
+         Paragraphs(s.levitation.sentences) + Left(s) + Spectra(s) + ParameterTable(s, said) +
+         CalibrationTable(s, said) + ForecastSection(s, said) +
+         "<h2>Ranking, and why not the others</h2>\n" + Ranking(s, said) + fit + ChannelTable(s) +
+         RunsTable(s) + "</body></html>\n";
 }
 
 }  // namespace levitas::report

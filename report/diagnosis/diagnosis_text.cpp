@@ -8,8 +8,6 @@
 #include <numbers>
 
 #include "diagnosis/inference/judging.hpp"
-#include "diagnosis/report/advice.hpp"
-#include "diagnosis/report/forecast_text.hpp"
 #include "diagnosis/report/report_text.hpp"
 #include "report/text/text_table.hpp"
 
@@ -22,6 +20,7 @@ using diagnosis::NamedParameter;
 using diagnosis::ReportFit;
 using diagnosis::ReportRun;
 using diagnosis::ReportRunFit;
+using diagnosis::ReportSentences;
 
 constexpr std::size_t kShown = 8;
 constexpr double kLeastShare = 0.01;  ///< of the rig file's error, to be said of calibration
@@ -36,31 +35,39 @@ void PrintAdvice(const DiagnosisReport& s) {
   fmt::print("\n");
 }
 
-void PrintParameters(const DiagnosisReport& s) {
-  const auto parameters = SharedParameters(s);
+/// " (110 to 130, 90 % interval)"; nothing where the value has no bracket.
+std::string BracketText(const SharedParameter& shared) {
+  const NamedParameter& p = shared.parameter;
+  if (p.low == p.high) return {};
+  return fmt::format(" ({:.4g} to {:.4g}, {})", p.low, p.high, shared.bracket);
+}
+
+void PrintParameters(const DiagnosisReport& s, const ReportSentences& said) {
+  const auto parameters = SharedParameters(s, said);
   if (parameters.empty()) return;
   fmt::print("Parameters, keys and units as in a rig file:\n");
   bool form = false;
-  for (const auto& [p, places] : parameters) {
+  for (const SharedParameter& shared : parameters) {
+    const NamedParameter& p = shared.parameter;
     const std::string unit = p.unit.empty() ? "" : " " + p.unit;
-    fmt::print("  {} {}: {:.5g}{}{}, {}\n", p.effect, p.key, p.value, unit,
-               diagnosis::BracketText(p), places);
+    fmt::print("  {} {}: {:.5g}{}{}, {}\n", p.effect, p.key, p.value, unit, BracketText(shared),
+               shared.places);
     form = form || p.form;
   }
   if (form) {
     fmt::print(
         "  (neighbouring forms: of a grid that was tried; not how well the value is known)\n");
   }
-  for (const std::string& total : diagnosis::TotalSentences(s.parameters))
-    fmt::print("  {}\n", total);
+  for (const std::string& total : said.totals) fmt::print("  {}\n", total);
   fmt::print("\n");
 }
 
-void PrintCalibrated(const DiagnosisReport& s, bool complete) {
+void PrintCalibrated(const DiagnosisReport& s, const ReportSentences& said, bool complete) {
   const auto& values = s.calibrated;
   std::vector<CalibratedValue> shown;
-  std::copy_if(values.begin(), values.end(), std::back_inserter(shown),
-               [complete](const auto& v) { return complete || diagnosis::IsSignificant(v); });
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (complete || said.is_significant[i]) shown.push_back(values[i]);
+  }
   if (!complete && shown.size() > kShown) shown.resize(kShown);
   fmt::print("Calibration: {} numbers in which a healthy rig may differ from its file; ",
              values.size());
@@ -84,7 +91,7 @@ void PrintCalibrated(const DiagnosisReport& s, bool complete) {
   fmt::print("\n");
 }
 
-void PrintFits(const DiagnosisReport& s) {
+void PrintFits(const DiagnosisReport& s, const ReportSentences& said) {
   fmt::print("{:<46}{:>9}{:>12}{:>10}{:>9}\n", "Fit of the one-step prediction, percent", "nominal",
              "calibrated", "extended", "ceiling");
   const auto row = [](const char* name, const ReportFit& g) {
@@ -94,25 +101,25 @@ void PrintFits(const DiagnosisReport& s) {
   row("  on fitted data", s.fitted);
   row("  on validation data", s.validation);
   const std::string remarks = FitRemarks(s);
-  fmt::print("{}\n{}{}", GainSentence(s), remarks, remarks.empty() ? "" : "\n");
+  fmt::print("{}\n{}{}", said.gain, remarks, remarks.empty() ? "" : "\n");
   const std::string shares = ErrorSharesSentence(s);
   if (!shares.empty()) fmt::print("{}\n", shares);
 }
 
 /// Speed by speed: what was to be expected of the forecast, and what was measured.
-void PrintForecast(const DiagnosisReport& s) {
+void PrintForecast(const DiagnosisReport& s, const ReportSentences& said) {
   if (!s.forecast || s.forecast->by_speed.empty()) return;
   const auto text = [](bool covered) { return covered ? "covered" : "not covered"; };
   const diagnosis::ReportForeseen& fit = s.forecast->fit_percent;
   fmt::print(
       "Forecast of stretches of the validation data, 90 % interval from the fitted data alone: fit "
       "{} %, measured {:.1f} %: {}. Chance to beat the rig file: {:.0f} %.\n",
-      diagnosis::RangeText(fit, 3), fit.measured, text(fit.covered),
-      100.0 * s.forecast->better_than_file);
-  for (const auto& band : s.forecast->by_speed) {
+      said.forecast_fit, fit.measured, text(fit.covered), 100.0 * s.forecast->better_than_file);
+  for (std::size_t i = 0; i < said.forecast.size(); ++i) {
+    const auto& band = s.forecast->by_speed[i];
     fmt::print("  {:>6.0f} to {:>6.0f} rpm: residual {} um rms, measured {:.4g}: {}\n",
-               band.from_rpm, band.to_rpm, diagnosis::RangeText(band.residual_um, 4),
-               band.residual_um.measured, text(band.residual_um.covered));
+               band.from_rpm, band.to_rpm, said.forecast[i].residual_um, band.residual_um.measured,
+               text(band.residual_um.covered));
   }
 }
 
@@ -166,18 +173,21 @@ bool Above(const ReportFit& g) {
 
 }  // namespace
 
-std::vector<SharedParameter> SharedParameters(const DiagnosisReport& s) {
+std::vector<SharedParameter> SharedParameters(const DiagnosisReport& s,
+                                              const ReportSentences& said) {
   struct Places {
     NamedParameter first;
+    const char* bracket{};
     std::vector<std::string> at;
   };
   std::vector<Places> groups;
-  for (const NamedParameter& p : s.parameters) {
+  for (std::size_t i = 0; i < s.parameters.size(); ++i) {
+    const NamedParameter& p = s.parameters[i];
     const auto same = std::find_if(groups.begin(), groups.end(), [&p](const Places& g) {
       return g.first.effect == p.effect && g.first.key == p.key && g.first.value == p.value &&
              g.first.low == p.low && g.first.high == p.high;
     });
-    (same == groups.end() ? groups.emplace_back(Places{p, {}}) : *same)
+    (same == groups.end() ? groups.emplace_back(Places{p, said.brackets[i], {}}) : *same)
         .at.push_back(p.location.name);
   }
   std::vector<SharedParameter> out;
@@ -185,7 +195,7 @@ std::vector<SharedParameter> SharedParameters(const DiagnosisReport& s) {
     std::string places;
     for (const std::string& place : g.at) places += (places.empty() ? "" : ", ") + place;
     const bool all = g.at.size() > 1 && g.at == s.rig_channels;
-    out.push_back({g.first, all ? "all axes" : places});
+    out.push_back({g.first, all ? "all axes" : places, g.bracket});
   }
   return out;
 }
@@ -200,44 +210,9 @@ std::string AtPhase(double value, std::optional<double> phase_rad) {
              : fmt::format("{:.5g}", value);
 }
 
-std::string SmallErrorSentence(const DiagnosisReport& s) {
-  if (diagnosis::AllInOrder(s)) {
-    return "Nothing to gain: the rig file itself predicts these data nearly to their noise.";
-  }
-  const std::string text =
-      "One step ahead the rig file itself predicts the validation data nearly to their noise, so "
-      "the fit says little here; ";
-  if (!s.causes.empty()) {
-    return text + fmt::format("the evidence of {:.0f} nat decides.", diagnosis::OwnEvidence(s));
-  }
-  return text + (s.verdict == diagnosis::Verdict::kUnknown
-                     ? "what is left stands out in few lines of the spectrum."
-                     : "the numbers that are off, and the candidates, do.");
-}
-
 std::string FurtherRecords(const DiagnosisReport& s) {
   if (s.next_experiment != diagnosis::kNoneNeeded) return s.next_experiment;
   return s.causes.empty() ? "none needed" : "none needed to name the cause";
-}
-
-std::string GainSentence(const DiagnosisReport& s) {
-  const ReportFit& held = s.validation;
-  if (!held.meaningful) return SmallErrorSentence(s);
-  const std::string gained = fmt::format(
-      "On validation data this model reaches {:.1f} % ({:.1f} to {:.1f} %) of the achievable gain",
-      100.0 * held.achieved.fraction, 100.0 * held.achieved.low, 100.0 * held.achieved.high);
-  if (s.causes.empty()) return gained + ", by calibration.";
-  if (held.calibration_is_complete) {
-    return fmt::format(
-        "{}; so does calibration alone, which leaves hardly more than the noise: the cause is "
-        "decided by its evidence of {:.0f} nat.",
-        gained, s.evidence_nat);
-  }
-  const double beyond = 100.0 * held.beyond_calibration;
-  return beyond < 0.0 ? fmt::format("{}; the cause adds {:.0f} % to what calibration leaves.",
-                                    gained, -beyond)
-                      : fmt::format("{}; of what calibration leaves, the cause takes {:.0f} %.",
-                                    gained, beyond);
 }
 
 std::string ErrorSharesSentence(const DiagnosisReport& s) {
@@ -276,17 +251,16 @@ std::string FitRemarks(const DiagnosisReport& s) {
 }
 
 void PrintDiagnosis(const DiagnosisReport& s, bool complete) {
-  for (const std::string& sentence : diagnosis::RecordErrorSentences(s.record_errors)) {
-    fmt::print("{}\n", sentence);
-  }
+  const ReportSentences said = diagnosis::SentencesOf(s);
+  for (const std::string& sentence : said.record_errors) fmt::print("{}\n", sentence);
   if (!s.record_errors.empty()) fmt::print("{}\n\n", diagnosis::kAsMended);
   PrintAdvice(s);
   fmt::print("In detail: {}\n\n", s.verdict_sentence);
   if (!s.healthy_sentence.empty()) fmt::print("{}\n\n", s.healthy_sentence);
-  PrintParameters(s);
-  PrintCalibrated(s, complete);
-  PrintFits(s);
-  PrintForecast(s);
+  PrintParameters(s, said);
+  PrintCalibrated(s, said, complete);
+  PrintFits(s, said);
+  PrintForecast(s, said);
   PrintRanking(s, complete);
   fmt::print("\nFurther records: {}\n", FurtherRecords(s));
   PrintTies(s);

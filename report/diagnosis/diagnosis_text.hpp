@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "diagnosis/report/diagnosis_report.hpp"
+#include "diagnosis/report/sentences.hpp"
 
 namespace levitas::report {
 
@@ -19,18 +20,14 @@ void PrintDiagnosis(const diagnosis::DiagnosisReport& report, bool complete);
 struct SharedParameter {
   diagnosis::NamedParameter parameter;
   std::string places;
+  const char* bracket{};  ///< which interval its bracket is
 };
 [[nodiscard]] std::vector<SharedParameter> SharedParameters(
-    const diagnosis::DiagnosisReport& report);
+    const diagnosis::DiagnosisReport& report, const diagnosis::ReportSentences& said);
 /// "91.8 to 93.2", of the extended model.
 [[nodiscard]] std::string IntervalText(const diagnosis::ReportRunFit& fit);
 /// "18.5 at 120.3 deg", or the value alone.
 [[nodiscard]] std::string AtPhase(double value, std::optional<double> phase_rad);
-/// What share of what could be gained is, and by what.
-[[nodiscard]] std::string GainSentence(const diagnosis::DiagnosisReport& report);
-/// Instead of it, where the rig file leaves hardly more than the noise: that nothing is to be
-/// gained only where all is in order.
-[[nodiscard]] std::string SmallErrorSentence(const diagnosis::DiagnosisReport& report);
 /// What to record next; empty hands are said with what they are enough for.
 [[nodiscard]] std::string FurtherRecords(const diagnosis::DiagnosisReport& report);
 /// With the session that was found for it; empty where none is proposed.

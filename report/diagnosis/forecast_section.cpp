@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "diagnosis/report/forecast_text.hpp"
 #include "report/html/table.hpp"
 #include "report/svg/figure.hpp"
 
@@ -15,6 +14,7 @@ namespace {
 
 using diagnosis::ReportForecast;
 using diagnosis::ReportForeseen;
+using diagnosis::ReportSentences;
 using html::Kind;
 
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
@@ -80,18 +80,18 @@ const char* Covered(const ReportForeseen& foreseen) {
   return foreseen.measured < foreseen.low ? "below" : "above";
 }
 
-std::string Table(const ReportForecast& forecast) {
+std::string Table(const ReportForecast& forecast, const ReportSentences& said) {
   html::Table table({{"rpm", Kind::kNumber},
                      {"residual expected, µm rms", Kind::kNumber},
                      {"measured", Kind::kNumber},
                      {},
                      {"fit expected, %", Kind::kNumber},
                      {"measured", Kind::kNumber}});
-  for (const ReportForecast::Band& band : forecast.by_speed) {
+  for (std::size_t i = 0; i < said.forecast.size(); ++i) {
+    const ReportForecast::Band& band = forecast.by_speed[i];
     table.Add({fmt::format("{:.0f} to {:.0f}", band.from_rpm, band.to_rpm),
-               diagnosis::RangeText(band.residual_um, 4),
-               fmt::format("{:.4g}", band.residual_um.measured), Covered(band.residual_um),
-               diagnosis::RangeText(band.fit_percent, 3),
+               said.forecast[i].residual_um, fmt::format("{:.4g}", band.residual_um.measured),
+               Covered(band.residual_um), said.forecast[i].fit_percent,
                fmt::format("{:.1f}", band.fit_percent.measured)});
   }
   return table.Html();
@@ -99,7 +99,7 @@ std::string Table(const ReportForecast& forecast) {
 
 }  // namespace
 
-std::string ForecastSection(const diagnosis::DiagnosisReport& s) {
+std::string ForecastSection(const diagnosis::DiagnosisReport& s, const ReportSentences& said) {
   if (!s.forecast || s.forecast->by_speed.empty()) return {};
   const ReportForeseen& fit = s.forecast->fit_percent;
   return fmt::format(
@@ -107,8 +107,8 @@ std::string ForecastSection(const diagnosis::DiagnosisReport& s) {
       "from this one, 90 would leave a residual within the interval. Fit of stretches of the "
       "validation data: expected {} %, measured {:.1f} %: {}. Chance to beat the rig file, before "
       "the validation data were seen: {:.0f} %.</p>\n{}{}",
-      diagnosis::RangeText(fit, 3), fit.measured, Covered(fit),
-      100.0 * s.forecast->better_than_file, Picture(*s.forecast), Table(*s.forecast));
+      said.forecast_fit, fit.measured, Covered(fit), 100.0 * s.forecast->better_than_file,
+      Picture(*s.forecast), Table(*s.forecast, said));
 }
 
 }  // namespace levitas::report

@@ -9,10 +9,12 @@
 #include <string>
 
 #include "diagnosis/report/diagnosis_report.hpp"
+#include "diagnosis/report/sentences.hpp"
 
 namespace levitas::report {
 
 /// HTML with its heading; empty where no validation records were given.
-[[nodiscard]] std::string ForecastSection(const diagnosis::DiagnosisReport& report);
+[[nodiscard]] std::string ForecastSection(const diagnosis::DiagnosisReport& report,
+                                          const diagnosis::ReportSentences& said);
 
 }  // namespace levitas::report

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "diagnosis/report/advice.hpp"
 #include "report/html/escaped_text.hpp"
 
 namespace levitas::report {
@@ -28,7 +27,8 @@ constexpr const char* kSketchRed = "#d62728";
 
 class Sketch {
  public:
-  explicit Sketch(const DiagnosisReport& report) : s_(report) {
+  Sketch(const DiagnosisReport& report, const std::vector<std::string>& marks)
+      : s_(report), marks_(marks) {
     double largest_m = 0.0;
     for (const ReportRotor::Piece& piece : s_.rotor.pieces) {
       from_m_ = std::min(from_m_, piece.from_m);
@@ -138,10 +138,7 @@ class Sketch {
       const ReportMark& mark = s_.marks[i];
       const double x = X(mark.z_m);
       const double y = 4.0 + kSketchRow * static_cast<double>(i + 1);
-      const effect::Words* words = diagnosis::FindWords(s_, mark.text);
-      const std::string shown =
-          fmt::format("{}, z = {:.0f} mm", words == nullptr ? mark.text : std::string(words->name),
-                      1e3 * mark.z_m);
+      const std::string& shown = marks_[i];
       const double half = 0.5 * kLetter * static_cast<double>(shown.size());
       const double at = std::clamp(x, half + 2.0, std::max(half + 2.0, kSketchWidth - half - 2.0));
       const double tip = axis_y_ - RadiusAt(mark.z_m);
@@ -158,6 +155,7 @@ class Sketch {
   }
 
   const DiagnosisReport& s_;
+  const std::vector<std::string>& marks_;
   double from_m_{std::numeric_limits<double>::infinity()};
   double to_m_{-std::numeric_limits<double>::infinity()};
   double along_{}, across_{}, top_{}, axis_y_{}, height_{};
@@ -165,9 +163,9 @@ class Sketch {
 
 }  // namespace
 
-std::string RotorSketch(const DiagnosisReport& report) {
+std::string RotorSketch(const DiagnosisReport& report, const std::vector<std::string>& marks) {
   if (report.rotor.pieces.empty()) return {};
-  return Sketch(report).Draw();
+  return Sketch(report, marks).Draw();
 }
 
 }  // namespace levitas::report

@@ -8,12 +8,14 @@
 // Thread   any; pure.
 
 #include <string>
+#include <vector>
 
 #include "diagnosis/report/diagnosis_report.hpp"
 
 namespace levitas::report {
 
-/// One SVG element; names are shown as text whatever they hold.
-[[nodiscard]] std::string RotorSketch(const diagnosis::DiagnosisReport& report);
+/// One SVG element; names are shown as text whatever they hold. `marks`: the text of each mark.
+[[nodiscard]] std::string RotorSketch(const diagnosis::DiagnosisReport& report,
+                                      const std::vector<std::string>& marks);
 
 }  // namespace levitas::report

@@ -5,7 +5,7 @@
 //         u32 0xEDA1DA01 | i64 number | i64 time [us since 1970 UTC] | i32 | i32 | bytes | bytes
 // Written directly and not through lcm_eventlog_write_event: that one buffers in stdio, allocates
 // nothing of ours but leaves the moment of writing to the C library, and its reader stops at the
-// first damaged length. Every LCM tool reads what is written here (tests/unit/session/log proves it).
+// first damaged length. Every LCM tool reads what is written here (tests/unit/session/log).
 
 #include <cstddef>
 #include <cstdint>

@@ -172,9 +172,9 @@ TEST(Origin, AnExtendedFileOfAnExtendedFileHoldsEachNumberOnce) {
 TEST(Origin, WhatIsInTheFileMayBeFoundToBeLess) {
   const configuration::RigFile file = Extended(LevitatorFile(), Everything());
   const Theta origin = OriginOf(file);
-  EXPECT_NEAR(LeastBeside(kDeadBand, origin[kDeadBand]), -0.09, 1e-12);
-  EXPECT_EQ(LeastBeside(kSupply, 0.3), Table()[kSupply].least);
-  EXPECT_EQ(LeastBeside(kDeadBand, 0.0), 0.0);
+  EXPECT_NEAR(LowerBound(kDeadBand, origin[kDeadBand]), -0.09, 1e-12);
+  EXPECT_EQ(LowerBound(kSupply, 0.3), Table()[kSupply].least);
+  EXPECT_EQ(LowerBound(kDeadBand, 0.0), 0.0);
 }
 
 TEST(Origin, RefusesEffectsThatNoNumberStandsForAndThoseThatSetInLater) {

@@ -20,14 +20,14 @@ Trajectory Error(double size, std::uint64_t seed = 3) {
   });
 }
 
-const std::vector<double>& Noise() {
+const std::vector<double>& NoiseOfAxes() {
   static const std::vector<double> kLevels(TheRig().axes, kNoise);
   return kLevels;
 }
 
 TEST(GainTest, OfAnExtensionThatExplainsAllIsOne) {
-  const Gain gain =
-      MeasureGain(TheRig(), {{Error(2.0)}, {Error(1.0)}, {Error(0.0)}}, Noise(), Part::kFitted);
+  const Gain gain = MeasureGain(TheRig(), {{Error(2.0)}, {Error(1.0)}, {Error(0.0)}}, NoiseOfAxes(),
+                                Part::kFitted);
   EXPECT_NEAR(gain.achieved.value, 1.0, 0.02);
   EXPECT_NEAR(gain.beyond_calibration.value, 1.0, 0.03);
   EXPECT_LE(gain.achieved.low, gain.achieved.value);
@@ -36,8 +36,8 @@ TEST(GainTest, OfAnExtensionThatExplainsAllIsOne) {
 
 TEST(GainTest, IsTheShareOfTheAchievablePower) {
   // From 2 to 0.5 of the noise's power: 1.5 of 2; from the calibrated 1 to 0.5: a half.
-  const Gain gain =
-      MeasureGain(TheRig(), {{Error(2.0)}, {Error(1.0)}, {Error(0.5)}}, Noise(), Part::kFitted);
+  const Gain gain = MeasureGain(TheRig(), {{Error(2.0)}, {Error(1.0)}, {Error(0.5)}}, NoiseOfAxes(),
+                                Part::kFitted);
   EXPECT_NEAR(gain.achieved.value, 0.75, 0.02);
   EXPECT_NEAR(gain.beyond_calibration.value, 0.5, 0.03);
   ASSERT_EQ(gain.channel.size(), TheRig().axes);
@@ -48,27 +48,27 @@ TEST(GainTest, IsTheShareOfTheAchievablePower) {
 }
 
 TEST(GainTest, TellsWhatThereWasToGainInPowersOfTheNoise) {
-  const Gain gain =
-      MeasureGain(TheRig(), {{Error(2.0)}, {Error(1.0)}, {Error(0.0)}}, Noise(), Part::kFitted);
+  const Gain gain = MeasureGain(TheRig(), {{Error(2.0)}, {Error(1.0)}, {Error(0.0)}}, NoiseOfAxes(),
+                                Part::kFitted);
   EXPECT_NEAR(gain.to_gain.value, 2.0, 0.05);
   EXPECT_NEAR(gain.calibrated_over_noise, 2.0, 0.04);
   EXPECT_NEAR(gain.extended_over_noise, 1.0, 0.02);
   EXPECT_TRUE(SomethingToGain(gain));
   // A rig that its file describes: a share of nothing means nothing, whatever it comes to.
-  EXPECT_FALSE(SomethingToGain(
-      MeasureGain(TheRig(), {{Error(0.0)}, {Error(0.0)}, {Error(0.1)}}, Noise(), Part::kFitted)));
+  EXPECT_FALSE(SomethingToGain(MeasureGain(TheRig(), {{Error(0.0)}, {Error(0.0)}, {Error(0.1)}},
+                                           NoiseOfAxes(), Part::kFitted)));
 }
 
 TEST(GainTest, IsNegativeWhenTheExtensionIsWorse) {
-  const Gain gain =
-      MeasureGain(TheRig(), {{Error(1.0)}, {Error(1.0)}, {Error(1.5)}}, Noise(), Part::kFitted);
+  const Gain gain = MeasureGain(TheRig(), {{Error(1.0)}, {Error(1.0)}, {Error(1.5)}}, NoiseOfAxes(),
+                                Part::kFitted);
   EXPECT_NEAR(gain.achieved.value, -0.5, 0.03);
   EXPECT_LT(gain.achieved.high, 0.0);
 }
 
 TEST(GainTest, FitIsThatOfTheInnovationsAndTheCeilingThatOfTheNoise) {
-  const Gain gain =
-      MeasureGain(TheRig(), {{Error(3.0)}, {Error(3.0)}, {Error(0.0)}}, Noise(), Part::kFitted);
+  const Gain gain = MeasureGain(TheRig(), {{Error(3.0)}, {Error(3.0)}, {Error(0.0)}}, NoiseOfAxes(),
+                                Part::kFitted);
   const double spread = 20e-6 / std::sqrt(2.0);  // of what was measured, a sine
   EXPECT_NEAR(gain.nominal_percent, 100.0 * (1.0 - 2.0 * kNoise / spread), 0.2);
   EXPECT_NEAR(gain.ceiling_percent, 100.0 * (1.0 - kNoise / spread), 0.1);
@@ -87,13 +87,14 @@ TEST(GainTest, IsMeasuredOnThePartAskedForAlone) {
     return run;
   };
   const ModelRuns runs{{halves(2.0, 2.0)}, {halves(2.0, 2.0)}, {halves(0.0, 1.0)}};
-  EXPECT_NEAR(MeasureGain(TheRig(), runs, Noise(), Part::kFitted).achieved.value, 1.0, 0.03);
-  EXPECT_NEAR(MeasureGain(TheRig(), runs, Noise(), Part::kValidation).achieved.value, 0.5, 0.03);
+  EXPECT_NEAR(MeasureGain(TheRig(), runs, NoiseOfAxes(), Part::kFitted).achieved.value, 1.0, 0.03);
+  EXPECT_NEAR(MeasureGain(TheRig(), runs, NoiseOfAxes(), Part::kValidation).achieved.value, 0.5,
+              0.03);
 }
 
 TEST(GainTest, OfNothingMeasuredIsNothing) {
   const ModelRuns runs{{Trajectory{}}, {Trajectory{}}, {Trajectory{}}};
-  const Gain gain = MeasureGain(TheRig(), runs, Noise(), Part::kValidation);
+  const Gain gain = MeasureGain(TheRig(), runs, NoiseOfAxes(), Part::kValidation);
   EXPECT_EQ(gain.achieved.value, 0.0);
   EXPECT_EQ(gain.nominal_percent, 0.0);
 }

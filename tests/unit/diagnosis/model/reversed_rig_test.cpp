@@ -15,7 +15,7 @@
 namespace levitas::diagnosis {
 namespace {
 
-constexpr int kRows = 300;
+constexpr int kRunRows = 300;
 
 class ReversedRig : public ::testing::Test {
  protected:
@@ -39,7 +39,7 @@ class ReversedRig : public ::testing::Test {
     }
     Random random(1);
     file << std::setprecision(17);
-    for (int n = 0; n < kRows; ++n) {
+    for (int n = 0; n < kRunRows; ++n) {
       file << "\n" << n * 1e-4 << ",0";
       for (int column = 0; column < 8; ++column) {
         const double sign = column == 1 ? probe : column == 6 ? coils : 1.0;
@@ -71,7 +71,7 @@ TEST_F(ReversedRig, HasTheSameMotionAndInnovationsAsTheStraightOne) {
   const Record wired = Load("wired.csv", reversed_);
   const auto expected = Run(FlexibleRotor(), straight);
   const auto found = Run(reversed_, wired);
-  ASSERT_EQ(expected.size(), static_cast<std::size_t>(kRows));
+  ASSERT_EQ(expected.size(), static_cast<std::size_t>(kRunRows));
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t n = 0; n < found.size(); ++n) {
     EXPECT_EQ(wired.rows[n].sample.position_m, straight.rows[n].sample.position_m);

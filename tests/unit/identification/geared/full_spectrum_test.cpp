@@ -9,6 +9,7 @@
 #include "common/problem.hpp"
 #include "common/random.hpp"
 #include "tests/support/paths.hpp"
+#include "tests/unit/identification/geared/reference_lines.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -17,7 +18,6 @@ using Complex = std::complex<double>;
 using testing::HasSubstr;
 
 // Numbers of the rig behind the reference file, see tests/data/reference/README.md.
-const GearedKnown kKnown{{2.0, 60.0, 2.0e5}, {3.5, 80.0, 2.4e5}, {}, 0.0};
 constexpr double kMeshStiffness = 1.0e6, kMeshDamping = 300.0, kKs = 1.0e5, kKi = 80.0;
 const Complex kPinionRunOut = std::polar(20e-6, 0.6);
 // The gear turns backwards, eps e^{-j(w t + phi)} with phi = -0.9 rad.
@@ -29,10 +29,6 @@ const std::map<int, Complex>& Errors() {
       {-3, std::polar(4e-6, 2.4)}, {4, std::polar(8e-6, 1.2)},  {-4, std::polar(5e-6, -2.0)},
       {5, std::polar(8e-6, 0.1)},  {-5, std::polar(5e-6, -0.4)}};
   return errors;
-}
-
-std::vector<GearedLine> Reference() {
-  return ReadGearedLines(test::DataFolder() + "/reference/geared_rotor_4dof_lines.csv");
 }
 
 double Relative(Complex found, Complex truth) { return std::abs(found - truth) / std::abs(truth); }

@@ -16,6 +16,7 @@
 #include "identification/geared/shaft_equations.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/unit/identification/geared/reference_lines.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -144,13 +145,6 @@ TEST(TwistPerForce, OfOneModeIsItsReceptanceAndOfARealSignalConjugateOnTheMirror
   EXPECT_LT(std::abs(twist[2] - alone), 1e-18);
   const auto none = TwistPerForceOn(lines, std::nullopt);
   EXPECT_EQ(std::abs(TwistOnLines(lines, force, none, torsion.normal)[0]), 0.0);
-}
-
-// The rig behind the reference file, see tests/data/reference/README.md.
-const GearedKnown kKnown{{2.0, 60.0, 2.0e5}, {3.5, 80.0, 2.4e5}, {}, 0.0};
-
-std::vector<GearedLine> Reference() {
-  return ReadGearedLines(test::DataFolder() + "/reference/geared_rotor_4dof_lines.csv");
 }
 
 TEST(MeshForces, OfBothShaftsAgreeAndAreTheTeethsStiffnessAndDampingOnEveryLine) {

@@ -14,6 +14,7 @@
 #include "identification/modal/stabilisation.hpp"
 #include "identification/modal/uncertainty.hpp"
 #include "tests/support/paths.hpp"
+#include "tests/unit/identification/modal/shipped_rotor.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -21,12 +22,6 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 using Index = Eigen::Index;
-
-const configuration::RigFile& Rig() {
-  static const configuration::RigFile rig =
-      configuration::LoadRig(test::SourceFolder() + "/config/rigs/flexible_rotor.yaml");
-  return rig;
-}
 
 const ModalStart& AssessStart() {
   static const ModalStart start = StartFromRig(Rig().plant, 5);

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "common/two_pi.hpp"
 #include "configuration/rig_file.hpp"
 #include "identification/modal/modal_line.hpp"
 #include "identification/modal/modal_quality.hpp"
@@ -19,8 +20,6 @@ namespace levitas::identification {
 namespace {
 
 using Complex = std::complex<double>;
-
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 const ModalStart& PartsStart(Eigen::Index bending = 5) {
   static const configuration::RigFile rig =

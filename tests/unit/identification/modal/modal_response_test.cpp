@@ -12,15 +12,10 @@
 #include "numerics/dense/factorisations.hpp"
 #include "plant_sim/plant/linear_model.hpp"
 #include "tests/support/paths.hpp"
+#include "tests/unit/identification/modal/shipped_rotor.hpp"
 
 namespace levitas::identification {
 namespace {
-
-const configuration::RigFile& Rig() {
-  static const configuration::RigFile rig =
-      configuration::LoadRig(test::SourceFolder() + "/config/rigs/flexible_rotor.yaml");
-  return rig;
-}
 
 Eigen::MatrixXcd Exact(double f_hz, double speed_rad_per_s) {
   const auto sampled = plant::Discretise(plant::Linearise(Rig().plant, speed_rad_per_s), 1e-4, 1.0);

@@ -2,6 +2,7 @@
 // gyroscopic matrix to where the data have it.
 #include "identification/modal/mode_scan.hpp"
 #include "common/rotational_speed.hpp"
+#include "common/two_pi.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,8 +17,6 @@
 
 namespace levitas::identification {
 namespace {
-
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 const ModalStart& ScanStart() {
   static const ModalStart start = StartFromRig(

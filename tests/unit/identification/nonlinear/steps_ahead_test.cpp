@@ -14,7 +14,7 @@ namespace {
 
 constexpr Eigen::Index kRows = 400;
 constexpr double kPole = 0.9;
-constexpr double kGain = 0.5;
+constexpr double kPlantGain = 0.5;
 
 /// y_k = 0.9 y_{k-1} + 0.5 u_{k-1}, read with noise.
 Series FirstOrder(double noise) {
@@ -25,7 +25,7 @@ Series FirstOrder(double noise) {
   for (Eigen::Index k = 0; k < kRows; ++k) {
     series.output(k, 0) = state + noise * normal(random);
     series.input(k, 0) = normal(random);
-    state = kPole * state + kGain * series.input(k, 0);
+    state = kPole * state + kPlantGain * series.input(k, 0);
   }
   return series;
 }
@@ -34,7 +34,8 @@ Series FirstOrder(double noise) {
 LaggedModel TrueModel(const Series& series) {
   LaggedModel model = EmptyModel({1, 1, 1, 1, 1, 0}, series);
   model.features[0] = {{.factors = {model.layout.y(0, 1)}}, {.factors = {model.layout.u(0, 1)}}};
-  model.theta[0] = Eigen::Vector2d(kPole, kGain * model.input_scale[0] / model.output_scale[0]);
+  model.theta[0] =
+      Eigen::Vector2d(kPole, kPlantGain * model.input_scale[0] / model.output_scale[0]);
   return model;
 }
 

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "common/problem.hpp"
+#include "report/diagnosis/old_keys.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/report/diagnosis/reports.hpp"
 
@@ -105,6 +106,14 @@ TEST(DiagnosisJson, HasWhatValidationDataSayUnderOneWordAndUnderTheOldKeys) {
   EXPECT_FALSE(json["candidates"][1].contains(old_nat));
   ASSERT_EQ(json["runs_validation"].size(), 1U);
   EXPECT_EQ(json["runs_validation"], json[std::string("runs_held") + "_out"]);
+}
+
+TEST(OldKeys, ComeOnlyWithTheNewOnes) {
+  nlohmann::ordered_json none{{"fit_percent", {{"before", 1.0}}},
+                              {"candidates", {{{"effect", "a"}}}}};
+  const nlohmann::ordered_json before = none;
+  AddOldKeys(none);
+  EXPECT_EQ(none, before);
 }
 
 TEST(WriteDiagnosis, WritesTheFourFilesItNames) {

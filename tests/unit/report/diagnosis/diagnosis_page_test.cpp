@@ -85,7 +85,7 @@ TEST(DiagnosisPage, DrawsTheRotorWithThePlaceOfTheCause) {
   DiagnosisReport geared = WithRotor();
   geared.rotor.pieces.clear();
   EXPECT_EQ(Count(DiagnosisPage(geared), "<svg"), 1U);
-  EXPECT_EQ(RotorSketch(geared), "");
+  EXPECT_EQ(RotorSketch(geared, {}), "");
 }
 
 TEST(DiagnosisPage, SaysWhenOfWhichFilesAndByWhichVersionItIs) {

@@ -17,11 +17,15 @@ using diagnosis::test::ParameterAt;
 using testing::HasSubstr;
 using testing::Not;
 
+std::vector<SharedParameter> Shared(const DiagnosisReport& report) {
+  return SharedParameters(report, diagnosis::SentencesOf(report));
+}
+
 TEST(SharedParameters, ThatAreTheSameAtSeveralPlacesStandOnce) {
   DiagnosisReport report = OneCause();
   report.rig_channels = {"de_x", "de_y", "nde_x"};
   report.parameters = {ParameterAt("de_x"), ParameterAt("de_y"), ParameterAt("nde_x", 200.0)};
-  const auto shared = SharedParameters(report);
+  const auto shared = Shared(report);
   ASSERT_EQ(shared.size(), 2U);
   EXPECT_EQ(shared[0].places, "de_x, de_y");
   EXPECT_EQ(shared[1].places, "nde_x");
@@ -31,52 +35,23 @@ TEST(SharedParameters, ThatAreTheSameAtSeveralPlacesStandOnce) {
 TEST(SharedParameters, OfEveryChannelOfTheRigAreOfAllAxes) {
   DiagnosisReport report = OneCause();
   report.parameters = {ParameterAt("de_x"), ParameterAt("de_y")};
-  EXPECT_EQ(SharedParameters(report)[0].places, "all axes");
+  EXPECT_EQ(Shared(report)[0].places, "all axes");
   // A rig of one channel has a place all the same.
   report.rig_channels = {"de_x"};
   report.parameters = {ParameterAt("de_x")};
-  EXPECT_EQ(SharedParameters(report)[0].places, "de_x");
+  EXPECT_EQ(Shared(report)[0].places, "de_x");
 }
 
 TEST(SharedParameters, WithOtherIntervalsAreNotTheSame) {
   DiagnosisReport report = OneCause();
   report.parameters = {ParameterAt("de_x"), ParameterAt("de_y")};
   report.parameters[1].high += 1.0;
-  EXPECT_EQ(SharedParameters(report).size(), 2U);
+  EXPECT_EQ(Shared(report).size(), 2U);
 }
 
 TEST(AtPhase, GivesDegreesWhereThereIsAPhaseAndTheValueAloneElsewhere) {
   EXPECT_EQ(AtPhase(18.5, std::numbers::pi / 2.0), "18.5 at 90.0 deg");
   EXPECT_EQ(AtPhase(18.5, std::nullopt), "18.5");
-}
-
-TEST(GainSentence, SaysWhatShareOfTheGainIsReachedAndWhoTakesIt) {
-  DiagnosisReport report = OneCause();
-  EXPECT_THAT(GainSentence(report), HasSubstr("reaches 95.0 % (90.0 to 99.0 %)"));
-  EXPECT_THAT(GainSentence(report), HasSubstr("the cause takes 80 %"));
-  report.validation.beyond_calibration = -0.1;
-  EXPECT_THAT(GainSentence(report), HasSubstr("the cause adds 10 %"));
-}
-
-TEST(GainSentence, NamesTheEvidenceWhereCalibrationAloneLeavesNothing) {
-  DiagnosisReport report = OneCause();
-  report.validation.calibration_is_complete = true;
-  EXPECT_THAT(GainSentence(report), HasSubstr("evidence of 40 nat"));
-}
-
-TEST(GainSentence, CreditsCalibrationWhereThereIsNoCause) {
-  DiagnosisReport report = OneCause();
-  report.causes.clear();
-  EXPECT_THAT(GainSentence(report), HasSubstr("by calibration"));
-  EXPECT_THAT(GainSentence(report), Not(HasSubstr("the cause")));
-}
-
-TEST(GainSentence, PromisesNothingWhereTheFileAlreadyFits) {
-  DiagnosisReport report = OneCause();
-  report.validation.meaningful = false;
-  report.causes.clear();
-  report.verdict = diagnosis::Verdict::kNone;
-  EXPECT_THAT(GainSentence(report), HasSubstr("Nothing to gain"));
 }
 
 TEST(FitRemarks, SayWhyAFitLiesAboveItsCeilingOnlyWhereOneDoes) {
@@ -98,31 +73,6 @@ TEST(FitRemarks, SayWhyCalibrationFitsLessOnlyWhereItDoes) {
   // On data that were not fitted it is one.
   report.validation.calibrated_percent = report.validation.nominal_percent - 0.1;
   EXPECT_EQ(FitRemarks(report), "");
-}
-
-TEST(GainSentence, NeverSaysNothingToGainBesideAnythingThatIsNotInOrder) {
-  DiagnosisReport healthy = OneCause();
-  healthy.validation.meaningful = false;
-  healthy.causes.clear();
-  healthy.verdict = diagnosis::Verdict::kNone;
-  DiagnosisReport cause = OneCause();
-  cause.validation.meaningful = false;
-  EXPECT_THAT(GainSentence(cause), HasSubstr("40 nat decides"));
-  DiagnosisReport unknown = healthy;
-  unknown.verdict = diagnosis::Verdict::kUnknown;
-  DiagnosisReport undecided = healthy;
-  undecided.undecided = true;
-  DiagnosisReport off = healthy;
-  off.calibrated.emplace_back();
-  off.calibrated.back().proven = 5.1;
-  DiagnosisReport outside = healthy;
-  outside.outside_tolerance = {"current_gain"};
-  DiagnosisReport doubted = healthy;
-  doubted.input_warning = "units";
-  for (const DiagnosisReport& report : {cause, unknown, undecided, off, outside, doubted}) {
-    EXPECT_THAT(GainSentence(report), Not(HasSubstr("Nothing to gain")));
-    EXPECT_THAT(GainSentence(report), HasSubstr("nearly to their noise"));
-  }
 }
 
 TEST(FurtherRecords, SayWhatTheyAreNotNeededFor) {

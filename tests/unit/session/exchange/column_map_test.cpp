@@ -58,7 +58,7 @@ columns:
   - {column: IXB, is: control_current_rear_x, unit: a}
   - {column: IYB, is: control_current_rear_y, unit: a}
 )";
-constexpr const char* kNames = "t [ms]\tphi\tXA\tYA\tXB\tYB\tIXA\tIYA\tIXB\tIYB\ttemp\n";
+constexpr const char* kColumnNames = "t [ms]\tphi\tXA\tYA\tXB\tYB\tIXA\tIYA\tIXB\tIYB\ttemp\n";
 
 class MappedFile : public ::testing::Test {
  protected:
@@ -86,7 +86,7 @@ class MappedFile : public ::testing::Test {
 };
 
 TEST_F(MappedFile, IsReadInItsUnitsSignsScalesAndOffsets) {
-  const auto report = Import(std::string(kNames) +
+  const auto report = Import(std::string(kColumnNames) +
                              "0\t90\t0.4\t7\t2\t1e-6\t500\t0.25\t0\t0\twarm\n"
                              "0.1\t180\t0.4\t7\t2\t1e-6\t500\t0.25\t0\t0\twarm\n");
   EXPECT_EQ(report.rows, 2U);
@@ -102,7 +102,7 @@ TEST_F(MappedFile, IsReadInItsUnitsSignsScalesAndOffsets) {
 
 TEST_F(MappedFile, OfAnyDialectGivesTheSameNumbers) {
   const std::string numbers = "0\t90\t0.4\t7\t2\t1e-6\t500\t0.25\t0\t0\t1\n";
-  Import(std::string(kNames) + numbers);
+  Import(std::string(kColumnNames) + numbers);
   const auto expected = First();
   const auto with = [&](std::string text, char separator, bool comma) {
     for (char& c : text) {
@@ -113,12 +113,12 @@ TEST_F(MappedFile, OfAnyDialectGivesTheSameNumbers) {
   };
   const std::string units = "[ms]\t[°]\t[mm]\t[µm]\t[V]\t[m]\t[mA]\t[A]\t[A]\t[A]\t[°C]\n";
   for (const std::string& text :
-       {"# rig 7\n\n# by me\n" + std::string(kNames) + numbers,
-        "Logger 3\nrows\t1\n" + std::string(kNames) + numbers,
-        std::string(kNames) + units + numbers, "# " + std::string(kNames) + numbers,
-        with(kNames, ';', false) + with(numbers, ';', true),
-        "sep=;\n" + with(kNames, ';', false) + with(numbers, ';', true),
-        with(kNames, ',', false) + with(numbers, ',', false)}) {
+       {"# rig 7\n\n# by me\n" + std::string(kColumnNames) + numbers,
+        "Logger 3\nrows\t1\n" + std::string(kColumnNames) + numbers,
+        std::string(kColumnNames) + units + numbers, "# " + std::string(kColumnNames) + numbers,
+        with(kColumnNames, ';', false) + with(numbers, ';', true),
+        "sep=;\n" + with(kColumnNames, ';', false) + with(numbers, ';', true),
+        with(kColumnNames, ',', false) + with(numbers, ',', false)}) {
     EXPECT_EQ(Import(text).rows, 1U) << text;
     EXPECT_EQ(First().in.frame.position_m, expected.in.frame.position_m) << text;
     EXPECT_EQ(First().out.current.control_current_a, expected.out.current.control_current_a);
@@ -198,7 +198,7 @@ columns:
 }
 
 TEST_F(MappedFile, IsNotReadWithoutItsMapButTheNamesFoundAndTheWayOutAreTold) {
-  WriteFile(csv_, std::string(kNames) + "0\t90\t0.4\t7\t2\t1e-6\t500\t0.25\t0\t0\t1\n");
+  WriteFile(csv_, std::string(kColumnNames) + "0\t90\t0.4\t7\t2\t1e-6\t500\t0.25\t0\t0\t1\n");
   try {
     ImportCsv(OptionsOf(csv_, out_, TwoBearings(), nullptr));
     FAIL();
