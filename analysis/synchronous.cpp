@@ -42,6 +42,20 @@ Eigen::VectorXd Basis(const std::vector<double>& orders, double angle_rad) {
   return basis;
 }
 
+/// Position and current of each axis from `first` on, in turn; the rotor's radius.
+double ReadAxes(const session::Recording& recording, std::size_t first, std::size_t row,
+                Eigen::RowVectorXd& values) {
+  double square = 0.0;
+  const auto axes = static_cast<std::size_t>(values.size()) / 2;
+  for (std::size_t axis = 0; axis < axes; ++axis) {
+    const double position_m = recording.position_m[first + axis][row];
+    values[static_cast<Eigen::Index>(2 * axis)] = position_m;
+    values[static_cast<Eigen::Index>(2 * axis + 1)] = recording.current_a[first + axis][row];
+    square += position_m * position_m;
+  }
+  return std::sqrt(square);
+}
+
 }  // namespace
 
 /// As turn_windows.hpp wants it.
@@ -166,14 +180,7 @@ void SynchronousAnalysis::FitBearing(std::size_t bearing, SynchronousRows& made)
   double radius_m = 0.0;
   for (std::size_t row = made.rows.begin; row < made.rows.end; ++row) {
     if (row > made.rows.begin) angle_rad += ratio * AngleStep(quiet, row);
-    double square = 0.0;
-    for (std::size_t axis = 0; axis < axes; ++axis) {
-      const double position_m = recording_.position_m[first + axis][row];
-      values[static_cast<Eigen::Index>(2 * axis)] = position_m;
-      values[static_cast<Eigen::Index>(2 * axis + 1)] = recording_.current_a[first + axis][row];
-      square += position_m * position_m;
-    }
-    radius_m = std::max(radius_m, std::sqrt(square));
+    radius_m = std::max(radius_m, ReadAxes(recording_, first, row, values));
     const Eigen::VectorXd basis = Basis(orders, angle_rad);
     normal.noalias() += basis * basis.transpose();
     right.noalias() += basis * values;

@@ -39,6 +39,11 @@ scenario::Prbs BitsOf(std::uint64_t seed) {
   return bits;
 }
 
+struct TestBits {
+  scenario::Prbs sequence;
+  bool bit{};
+};
+
 class Loop {
  public:
   Loop(const std::shared_ptr<const plant::PlantModel>& model, const law::LawConfig& law,
@@ -55,12 +60,10 @@ class Loop {
     plant::Plant plant(model_, seed);
     law::LawState state(coefficients_);
     const auto warm_up = static_cast<std::size_t>(kWarmUpS / period_s_);
-    const auto quiet = static_cast<std::size_t>(std::llround(plan_.quiet_s / period_s_));
     const double from = RpmToRadPerS(motion.from_rpm);
     const double slope =
         RpmToRadPerS(motion.to_rpm - motion.from_rpm) / static_cast<double>(motion.rows);
-    scenario::Prbs bits = BitsOf(seed);
-    bool bit = false;
+    TestBits bits{BitsOf(seed)};
     analysis::RecordedRow held;
     AxisArray given_a{};
     plant.SetSpeed(from, 0.0);
@@ -73,23 +76,11 @@ class Loop {
       analysis::RecordedRow row = Read(plant, speed, clock_s);
       analysis::RecordedSample& sample = row.sample;
       row.cycle = recorded ? n - warm_up : 0;
-      if (n >= warm_up + quiet && motion.excited) {
-        const std::size_t since = n - warm_up - quiet;
-        if (since % 2 == 0) bit = bits.Next();
-        const std::size_t per_axis = (motion.rows - quiet) / model_->axes();
-        const std::size_t axis = std::min(since / per_axis, model_->axes() - 1);
-        row.excitation_a[axis] = bit ? plan_.excitation_a : -plan_.excitation_a;
-      }
-      // Before the integrators hold the weight the rotor sags.
-      const double limit_m = !recorded              ? kSaggingM
-                             : motion.to_rpm == 0.0 ? plan_.resting_m
-                                                    : plan_.limit_m;
-      if (!Within(limit_m, sample.position_m)) return false;
+      if (recorded && motion.excited) Excite(motion, row.cycle, bits, row.excitation_a);
+      if (!Within(LimitOf(motion, recorded), sample.position_m)) return false;
       const bool lost = recorded && Lost();
       if (lost) {
-        sample.position_m = held.sample.position_m;
-        sample.command.control_current_a = held.sample.command.control_current_a;
-        row.excitation_a = held.excitation_a;
+        Repeat(held, row);
       } else {
         sample.command.control_current_a =
             law::Step(coefficients_, state, ErrorOf(sample.position_m), row.excitation_a, limit_a_)
@@ -107,6 +98,31 @@ class Loop {
   }
 
  private:
+  /// Once the quiet rows have passed: one axis after the other, each bit for two rows.
+  void Excite(const Motion& motion, std::size_t row, TestBits& bits,
+              AxisArray& excitation_a) const {
+    const auto quiet = static_cast<std::size_t>(std::llround(plan_.quiet_s / period_s_));
+    if (row < quiet) return;
+    const std::size_t since = row - quiet;
+    if (since % 2 == 0) bits.bit = bits.sequence.Next();
+    const std::size_t per_axis = (motion.rows - quiet) / model_->axes();
+    const std::size_t axis = std::min(since / per_axis, model_->axes() - 1);
+    excitation_a[axis] = bits.bit ? plan_.excitation_a : -plan_.excitation_a;
+  }
+
+  /// Before the integrators hold the weight the rotor sags.
+  [[nodiscard]] double LimitOf(const Motion& motion, bool recorded) const {
+    if (!recorded) return kSaggingM;
+    return motion.to_rpm == 0.0 ? plan_.resting_m : plan_.limit_m;
+  }
+
+  /// What a row that was lost says: the one before.
+  static void Repeat(const analysis::RecordedRow& held, analysis::RecordedRow& row) {
+    row.sample.position_m = held.sample.position_m;
+    row.sample.command.control_current_a = held.sample.command.control_current_a;
+    row.excitation_a = held.excitation_a;
+  }
+
   /// A row without control current and test signal.
   analysis::RecordedRow Read(plant::Plant& plant, double speed_rad_per_s, double clock_s) {
     plant.SetSpeed(speed_rad_per_s, plant.angle_rad());

@@ -34,7 +34,11 @@ class Draw {
   void ProfileAsScenario(double first_rpm, double second_rpm, double rate);
   void Draws(Kind kind);
   void Line(Kind kind);
+  void Disorder(Kind kind, LineTrouble t);
+  void Add(const LineTrouble& trouble, const std::string& text, std::vector<LineTrouble>& to);
   void Truth(Kind kind);
+  void FalseSpeed(Kind kind, double at_s, const std::string& when, Falsehood& f);
+  void FalsePosition(Kind kind, const std::string& when, Falsehood& f);
   void Deeds(Kind kind);
   void Commands();
   void Signals();
@@ -98,19 +102,16 @@ LineTrouble Draw::Window() {
   return trouble;
 }
 
+void Draw::Add(const LineTrouble& trouble, const std::string& text, std::vector<LineTrouble>& to) {
+  to.push_back(trouble);
+  Tell(fmt::format("{} from {:.4f} to {:.4f} s", text, static_cast<double>(trouble.from_ns) * 1e-9,
+                   static_cast<double>(trouble.to_ns) * 1e-9));
+}
+
 void Draw::Line(Kind kind) {
   LineTrouble t = Window();
-  const std::string when =
-      fmt::format("from {:.4f} to {:.4f} s", static_cast<double>(t.from_ns) * 1e-9,
-                  static_cast<double>(t.to_ns) * 1e-9);
-  const auto frames = [&](const std::string& text) {
-    plan_.frame_troubles.push_back(t);
-    Tell(text + " " + when);
-  };
-  const auto currents = [&](const std::string& text) {
-    plan_.current_troubles.push_back(t);
-    Tell(text + " " + when);
-  };
+  const auto frames = [&](const std::string& text) { Add(t, text, plan_.frame_troubles); };
+  const auto currents = [&](const std::string& text) { Add(t, text, plan_.current_troubles); };
   const double share = Coin() ? Between(0.0, 0.95) : Over(1e-3, 0.5);
   switch (kind) {
     case Kind::kFramesLost:
@@ -134,6 +135,15 @@ void Draw::Line(Kind kind) {
       t.delay_ns = Ns(Over(5e-6, 3e-3));
       return currents(
           fmt::format("currents {:.0f} us late", static_cast<double>(t.delay_ns) * 1e-3));
+    default:
+      return Disorder(kind, t);
+  }
+}
+
+/// Frames at odd times, twice or overtaken; by a coin the currents, too.
+void Draw::Disorder(Kind kind, LineTrouble t) {
+  const auto frames = [&](const std::string& text) { Add(t, text, plan_.frame_troubles); };
+  switch (kind) {
     case Kind::kJitter:
       t.jitter_ns = Ns(Over(2e-5, 3e-3));
       if (Coin()) plan_.current_troubles.push_back(t);
@@ -152,6 +162,39 @@ void Draw::Line(Kind kind) {
   }
 }
 
+void Draw::FalseSpeed(Kind kind, double at_s, const std::string& when, Falsehood& f) {
+  f.what = Falsified::kSpeed;
+  if (kind == Kind::kSpeedGlitch) {
+    const double rated = rig_.max_speed_rad_per_s;
+    const std::array values{
+        0.0, -0.2, RpmToRadPerS(Between(-4.0, 4.0)), rated * 0.5, -rated, 2.0 * rated, 1e9};
+    f.value = values[One(values.size())];
+    Tell(fmt::format("speed reads {:.4g} rad/s {}", f.value, when));
+  } else if (kind == Kind::kSpeedNotFinite) {
+    f.value =
+        Coin() ? std::numeric_limits<double>::quiet_NaN() : std::numeric_limits<double>::infinity();
+    Tell(fmt::format("speed reads {} {}", f.value, when));
+  } else {
+    f.what = Falsified::kSpeedHeld;
+    f.to_ns = Ns(at_s + Over(1e-2, 10.0));
+    Tell(fmt::format("speed stuck from {:.4f} s", at_s));
+  }
+}
+
+void Draw::FalsePosition(Kind kind, const std::string& when, Falsehood& f) {
+  f.what = Falsified::kPosition;
+  if (kind == Kind::kPositionGlitch) {
+    f.value = rig_.SensorRangeOf(f.axis / 2) * Between(-1.0, 1.0);
+    Tell(fmt::format("axis {} reads {:.0f} um {}", f.axis, f.value * 1e6, when));
+  } else if (kind == Kind::kPositionNotFinite) {
+    f.value = std::numeric_limits<double>::quiet_NaN();
+    Tell(fmt::format("axis {} reads nan {}", f.axis, when));
+  } else {
+    f.what = Falsified::kPositionHeld;
+    Tell(fmt::format("axis {} stuck {}", f.axis, when));
+  }
+}
+
 void Draw::Truth(Kind kind) {
   Falsehood f;
   const double at_s = WhileTurning();
@@ -159,41 +202,17 @@ void Draw::Truth(Kind kind) {
   f.from_ns = Ns(at_s);
   f.to_ns = Ns(at_s + lasts_s);
   f.axis = One(rig_.axes());
-  const double rated = rig_.max_speed_rad_per_s;
-  const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::string when = fmt::format("at {:.4f} s for {:.4f} s", at_s, lasts_s);
   switch (kind) {
-    case Kind::kSpeedGlitch: {
-      const std::array values{
-          0.0, -0.2, RpmToRadPerS(Between(-4.0, 4.0)), rated * 0.5, -rated, 2.0 * rated, 1e9};
-      f.what = Falsified::kSpeed;
-      f.value = values[One(values.size())];
-      Tell(fmt::format("speed reads {:.4g} rad/s {}", f.value, when));
-      break;
-    }
+    case Kind::kSpeedGlitch:
     case Kind::kSpeedNotFinite:
-      f.what = Falsified::kSpeed;
-      f.value = Coin() ? nan : std::numeric_limits<double>::infinity();
-      Tell(fmt::format("speed reads {} {}", f.value, when));
-      break;
     case Kind::kSpeedStuck:
-      f.what = Falsified::kSpeedHeld;
-      f.to_ns = Ns(at_s + Over(1e-2, 10.0));
-      Tell(fmt::format("speed stuck from {:.4f} s", at_s));
+      FalseSpeed(kind, at_s, when, f);
       break;
     case Kind::kPositionGlitch:
-      f.what = Falsified::kPosition;
-      f.value = rig_.SensorRangeOf(f.axis / 2) * Between(-1.0, 1.0);
-      Tell(fmt::format("axis {} reads {:.0f} um {}", f.axis, f.value * 1e6, when));
-      break;
     case Kind::kPositionNotFinite:
-      f.what = Falsified::kPosition;
-      f.value = nan;
-      Tell(fmt::format("axis {} reads nan {}", f.axis, when));
-      break;
     case Kind::kPositionStuck:
-      f.what = Falsified::kPositionHeld;
-      Tell(fmt::format("axis {} stuck {}", f.axis, when));
+      FalsePosition(kind, when, f);
       break;
     default:
       f.what = Falsified::kStatus;

@@ -33,6 +33,7 @@ struct ExportOptions {
 
 using Exporter = session::ExportReport (*)(session::SessionReader&, const std::string&,
                                            const session::ExportSelection&);
+using Exports = std::array<std::pair<const std::string*, Exporter>, 3>;  ///< to which file
 
 /// Reads the session once for one file.
 session::ExportReport Write(const ExportOptions& options, const std::string& path,
@@ -55,30 +56,26 @@ void WriteLog(const ExportOptions& options) {
              static_cast<double>(report.out_bytes) * 1e-6);
 }
 
-ExitStatus Export(const ExportOptions& options) {
-  const std::array<std::pair<const std::string*, Exporter>, 3> files{
-      {{&options.csv_path, session::ExportCsv},
-       {&options.mat_path, session::ExportMat},
-       {&options.mcap_path, session::ExportMcap}}};
-  if (options.lcm_path.empty() && std::all_of(files.begin(), files.end(), [](const auto& file) {
-        return file.first->empty();
-      })) {
-    throw Problem(
-        ExitStatus::kUsage,
-        "nothing to write: name --csv FILE, --mat FILE, --mcap FILE, --lcm FILE or several "
-        "of them");
+void RefuseNothingToWrite(const ExportOptions& options, const Exports& files) {
+  const bool no_table =
+      std::all_of(files.begin(), files.end(), [](const auto& file) { return file.first->empty(); });
+  if (!no_table || !options.lcm_path.empty()) return;
+  throw Problem(ExitStatus::kUsage,
+                "nothing to write: name --csv FILE, --mat FILE, --mcap FILE, --lcm FILE or several "
+                "of them");
+}
+
+/// Under such a name nobody could read it, this program neither.
+void RefusePacked(const std::string& path) {
+  for (const char* ending : {".xz", ".zst"}) {
+    if (!path.ends_with(ending)) continue;
+    throw Problem(ExitStatus::kUsage, fmt::format("{}: an export is not packed; leave out {}, and "
+                                                  "pack the file afterwards",
+                                                  path, ending));
   }
-  for (const auto& [path, exporter] : files) {
-    session::CheckOutputPath(*path, options.session_path);
-    // Under such a name nobody could read it, this program neither.
-    for (const char* ending : {".xz", ".zst"}) {
-      if (!path->ends_with(ending)) continue;
-      throw Problem(ExitStatus::kUsage,
-                    fmt::format("{}: an export is not packed; leave out {}, and "
-                                "pack the file afterwards",
-                                *path, ending));
-    }
-  }
+}
+
+void RefuseSelectedLog(const ExportOptions& options) {
   const session::ExportSelection all;
   const session::ExportSelection& some = options.selection;
   if (!options.lcm_path.empty() && (some.from_s != all.from_s || some.to_s != all.to_s ||
@@ -86,6 +83,18 @@ ExitStatus Export(const ExportOptions& options) {
     throw Problem(ExitStatus::kUsage,
                   "--lcm writes the log whole: leave out --from, --to, --every and --columns");
   }
+}
+
+ExitStatus Export(const ExportOptions& options) {
+  const Exports files{{{&options.csv_path, session::ExportCsv},
+                       {&options.mat_path, session::ExportMat},
+                       {&options.mcap_path, session::ExportMcap}}};
+  RefuseNothingToWrite(options, files);
+  for (const auto& [path, exporter] : files) {
+    session::CheckOutputPath(*path, options.session_path);
+    RefusePacked(*path);
+  }
+  RefuseSelectedLog(options);
   session::CheckOutputPath(options.lcm_path, options.session_path);
   session::CheckOutputPath(options.json_path, options.session_path);
   session::SessionReader reader(options.session_path);

@@ -77,6 +77,33 @@ bool WritePictures(const std::string& folder, const std::vector<report::NamedPic
   return !converter.empty();
 }
 
+/// The verdict of the session, and the pictures of the model it is judged by.
+void AddVerdict(const report::Recording& recording, report::PageInput& input) {
+  verdict::CommissionOptions judge;
+  judge.session_path = input.session_path;
+  judge.provenance.session_file = input.session_path;
+  input.verdict = verdict::Commission(judge);
+  const report::RunModel model = report::ModelOf(recording.header, *input.verdict);
+  input.levitated = model.levitated;
+  input.pictures = report::ModelPictures(model, *input.verdict);
+}
+
+nlohmann::ordered_json MadeJson(const ReportOptions& options, const report::PageInput& input,
+                                bool png, std::uint64_t cycles) {
+  nlohmann::ordered_json names = nlohmann::ordered_json::array();
+  for (const auto& picture : input.pictures) names.push_back(picture.name);
+  return {{"session", options.session_path},
+          {"report", options.html_path},
+          {"pictures", names},
+          {"png", png},
+          {"verdict", input.verdict ? nlohmann::ordered_json(verdict::Name(input.verdict->outcome))
+                                    : nlohmann::ordered_json()},
+          {"judgement", input.verdict ? verdict::Json(*input.verdict) : nlohmann::ordered_json()},
+          {"critical_speeds", input.levitated ? CriticalSpeedsJson(*input.levitated)
+                                              : nlohmann::ordered_json::array()},
+          {"cycles", cycles}};
+}
+
 ExitStatus Report(const ReportOptions& options) {
   for (const std::string& path : {options.html_path, options.json_path}) {
     session::CheckOutputPath(path, options.session_path);
@@ -85,15 +112,7 @@ ExitStatus Report(const ReportOptions& options) {
   input.durations = DurationsOf(options.run_json_path);
   input.session_path = options.session_path;
   const report::Recording recording = report::Load(options.session_path);
-  if (!recording.header.controller_yaml.empty()) {
-    verdict::CommissionOptions judge;
-    judge.session_path = options.session_path;
-    judge.provenance.session_file = options.session_path;
-    input.verdict = verdict::Commission(judge);
-    const report::RunModel model = report::ModelOf(recording.header, *input.verdict);
-    input.levitated = model.levitated;
-    input.pictures = report::ModelPictures(model, *input.verdict);
-  }
+  if (!recording.header.controller_yaml.empty()) AddVerdict(recording, input);
   report::PictureOptions pictures;
   for (const double speed_rpm : options.speeds_rpm) {
     pictures.speeds_rad_per_s.push_back(RpmToRadPerS(speed_rpm));
@@ -104,8 +123,6 @@ ExitStatus Report(const ReportOptions& options) {
   WriteTextFile(options.html_path, report::Page(recording, input));
   fmt::print("{}: {} pictures, {:.0f} kB\n", options.html_path, input.pictures.size(),
              static_cast<double>(fs::file_size(options.html_path)) * 1e-3);
-  nlohmann::ordered_json names = nlohmann::ordered_json::array();
-  for (const auto& picture : input.pictures) names.push_back(picture.name);
   const bool png =
       !options.picture_folder.empty() && WritePictures(options.picture_folder, input.pictures);
   if (!recording.damage.empty()) {
@@ -115,18 +132,7 @@ ExitStatus Report(const ReportOptions& options) {
     for (const std::string& warning : input.verdict->warnings) fmt::print("WARNING: {}\n", warning);
     fmt::print("{}\n", input.verdict->sentence);
   }
-  WriteJsonFile(
-      options.json_path,
-      {{"session", options.session_path},
-       {"report", options.html_path},
-       {"pictures", names},
-       {"png", png},
-       {"verdict", input.verdict ? nlohmann::ordered_json(verdict::Name(input.verdict->outcome))
-                                 : nlohmann::ordered_json()},
-       {"judgement", input.verdict ? verdict::Json(*input.verdict) : nlohmann::ordered_json()},
-       {"critical_speeds",
-        input.levitated ? CriticalSpeedsJson(*input.levitated) : nlohmann::ordered_json::array()},
-       {"cycles", recording.records}});
+  WriteJsonFile(options.json_path, MadeJson(options, input, png, recording.records));
   return ExitStatus::kDone;
 }
 

@@ -306,6 +306,31 @@ void AddPaceOptions(CLI::App& command, const std::shared_ptr<RunOptions>& option
       ->check(CLI::Range(0.05, 100.0));
 }
 
+void AddPortOptions(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
+  command.add_option("--port", options->port,
+                     "lcm, lcm:udpm://<group>:<port>?ttl=<n>, can, or can:IF[,IF...] (the rig then "
+                     "stands behind CAN buses, see docs/real_rig.md); default: lcm on free ports");
+  command.add_flag("--no-simulated-rig", options->rig_is_there,
+                   "Start the controller alone, for a rig that is on --port already; on a bus "
+                   "that is no virtual "
+                   "one (vcan, vxcan) a simulated rig is never started");
+  command.add_option("--key", options->key,
+                     "File with the key of those who may speak on the network (amb key FILE "
+                     "makes one); with ttl above 0 it is needed");
+  command.add_flag("--no-commands", options->no_commands,
+                   "Take no commands over the network, not even the live page's");
+}
+
+void AddRecordOptions(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
+  auto* record = command.add_option(
+      "--record", options->record_path,
+      "Keep the record in this file; packed by zstd under a name that ends in .zst");
+  command.add_flag("--overwrite", options->overwrite, "Replace a record that is there already");
+  command
+      .add_option("--tag", options->tags, "Tag of the record, see amb sessions; may be repeated")
+      ->needs(record);
+}
+
 void AddPageOptions(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
   auto* dash = command.add_flag_callback(
       "--dash", [options] { options->page = PageWish::kAlways; },
@@ -340,26 +365,8 @@ void AddRunCommand(CLI::App& app, Action& action) {
                    "Land after this long [s of the rig's time], wherever the scenario is")
       ->check(WhyNoTime);
   AddPaceOptions(*command, options);
-  command->add_option(
-      "--port", options->port,
-      "lcm, lcm:udpm://<group>:<port>?ttl=<n>, can, or can:IF[,IF...] (the rig then "
-      "stands behind CAN buses, see docs/real_rig.md); default: lcm on free ports");
-  command->add_flag("--no-simulated-rig", options->rig_is_there,
-                    "Start the controller alone, for a rig that is on --port already; on a bus "
-                    "that is no virtual "
-                    "one (vcan, vxcan) a simulated rig is never started");
-  command->add_option("--key", options->key,
-                      "File with the key of those who may speak on the network (amb key FILE "
-                      "makes one); with ttl above 0 it is needed");
-  command->add_flag("--no-commands", options->no_commands,
-                    "Take no commands over the network, not even the live page's");
-  auto* record = command->add_option(
-      "--record", options->record_path,
-      "Keep the record in this file; packed by zstd under a name that ends in .zst");
-  command->add_flag("--overwrite", options->overwrite, "Replace a record that is there already");
-  command
-      ->add_option("--tag", options->tags, "Tag of the record, see amb sessions; may be repeated")
-      ->needs(record);
+  AddPortOptions(*command, options);
+  AddRecordOptions(*command, options);
   command->add_option("--seed", options->seed, "Seed of the sensor noise")
       ->check(WhyNoWholeNumber)
       ->capture_default_str();

@@ -40,18 +40,8 @@ void RefuseBeyond(const RigSketch& sketch, double z_mm, const char* what) {
                              what, z_mm, sketch.length_mm));
 }
 
-std::string RotorText(const RigSketch& sketch, const SketchNumbers& n) {
-  std::string text = fmt::format(
-      "rotor:\n"
-      "  material:                  # steel (assumed)\n"
-      "    young_gpa: 210\n"
-      "    poisson: 0.3\n"
-      "    density_kg_per_m3: {:g}\n"
-      "  sections:                  # one piece; the diameter follows from {:.6g} kg of shaft: "
-      "list "
-      "the real ones\n"
-      "    - {{length_mm: {:.6g}, outer_diameter_mm: {:.6g}}}\n",
-      kSteelKgPerM3, n.shaft_mass_kg, sketch.length_mm, n.diameter_mm);
+std::string DiscsText(const RigSketch& sketch) {
+  std::string text;
   if (!sketch.discs.empty()) {
     text += "  discs:                     # solid discs, thin: Ip = m d^2/8, Id = m d^2/16\n";
   }
@@ -64,7 +54,12 @@ std::string RotorText(const RigSketch& sketch, const SketchNumbers& n) {
         "polar_inertia_kg_m2: {:.9g}}}\n",
         disc.z_mm, disc.mass_kg, diametral, 2.0 * std::stod(diametral));
   }
-  text += "  unbalance:                 # grade G 2.5 of ISO 21940-11 at top speed (assumed)\n";
+  return text;
+}
+
+std::string UnbalanceText(const RigSketch& sketch, const SketchNumbers& n) {
+  std::string text =
+      "  unbalance:                 # grade G 2.5 of ISO 21940-11 at top speed (assumed)\n";
   const std::array<int, 2> phases{0, 90};
   for (std::size_t b = 0; b < 2; ++b) {
     text += fmt::format("    - {{z_mm: {:.6g}, moment_g_mm: {:.4g}, phase_deg: {}}}\n",
@@ -82,11 +77,27 @@ std::string RotorText(const RigSketch& sketch, const SketchNumbers& n) {
         disc.z_mm);
     taken_mm.push_back(disc.z_mm);
   }
-  return text + fmt::format(
-                    "  max_element_length_mm: {:.4g}\n"
-                    "  modes_per_plane: 5         # two rigid, three bending\n"
-                    "  modal_damping_ratio: 0.003 # of the material (assumed)\n\n",
-                    std::max(0.1, sketch.length_mm / 40.0));
+  return text;
+}
+
+std::string RotorText(const RigSketch& sketch, const SketchNumbers& n) {
+  const std::string text = fmt::format(
+      "rotor:\n"
+      "  material:                  # steel (assumed)\n"
+      "    young_gpa: 210\n"
+      "    poisson: 0.3\n"
+      "    density_kg_per_m3: {:g}\n"
+      "  sections:                  # one piece; the diameter follows from {:.6g} kg of shaft: "
+      "list "
+      "the real ones\n"
+      "    - {{length_mm: {:.6g}, outer_diameter_mm: {:.6g}}}\n",
+      kSteelKgPerM3, n.shaft_mass_kg, sketch.length_mm, n.diameter_mm);
+  return text + DiscsText(sketch) + UnbalanceText(sketch, n) +
+         fmt::format(
+             "  max_element_length_mm: {:.4g}\n"
+             "  modes_per_plane: 5         # two rigid, three bending\n"
+             "  modal_damping_ratio: 0.003 # of the material (assumed)\n\n",
+             std::max(0.1, sketch.length_mm / 40.0));
 }
 
 /// The strength of a magnet as it was given: by its coil, or by ki.

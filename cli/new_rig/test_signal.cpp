@@ -70,6 +70,24 @@ double HoldOf(const RigSketch& sketch, const TestSignal& signal) {
   return kPeriods * (std::exp2(signal.order) - 1.0) * signal.divisor / sketch.rate_hz;
 }
 
+/// Steps that excite one axis after the other.
+std::string ExcitationText(const configuration::RigFile& rig, const TestSignal& signal,
+                           double hold_s) {
+  std::string text;
+  for (const std::string& channel : rig.numbers.channels) {
+    text += fmt::format(
+        "  - do: nothing\n"
+        "    hold_s: {:.6g}\n"
+        "    orbit_limit_um: {:.4g}\n"
+        "    excitation:\n"
+        "      - {{channel: {}, amplitude_a: {:.4g}, order: {}, divisor: {}}}\n"
+        "  - {{do: nothing, hold_s: 0.3}}\n",
+        hold_s, 1e6 * signal.orbit_limit_m, channel, signal.amplitude_a, signal.order,
+        signal.divisor);
+  }
+  return text;
+}
+
 /// Two figures, downwards: a number one would have typed.
 double RoundedDown(double value) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
@@ -119,7 +137,7 @@ double DurationOf(const RigSketch& sketch, const configuration::RigFile& rig,
 
 std::string SketchIdentify(const RigSketch& sketch, const configuration::RigFile& rig,
                            const TestSignal& signal) {
-  const double hold_s = HoldOf(sketch, signal);
+  const std::string excite = ExcitationText(rig, signal, HoldOf(sketch, signal));
   std::string text = fmt::format(
       "kind: scenario\n"
       "name: {}_identify\n\n"
@@ -136,29 +154,16 @@ std::string SketchIdentify(const RigSketch& sketch, const configuration::RigFile
       sketch.name, kPeriods);
   const double acceleration = SketchAcceleration(sketch);
   const double patience_s = SketchPatience(sketch);
-  const auto excite = [&] {
-    for (const std::string& channel : rig.numbers.channels) {
-      text += fmt::format(
-          "  - do: nothing\n"
-          "    hold_s: {:.6g}\n"
-          "    orbit_limit_um: {:.4g}\n"
-          "    excitation:\n"
-          "      - {{channel: {}, amplitude_a: {:.4g}, order: {}, divisor: {}}}\n"
-          "  - {{do: nothing, hold_s: 0.3}}\n",
-          hold_s, 1e6 * signal.orbit_limit_m, channel, signal.amplitude_a, signal.order,
-          signal.divisor);
-    }
-  };
   const auto spin = [&](double rpm, const char* until) {
     text += fmt::format(
         "\n  - {{do: spin, speed_rpm: {:.0f}, acceleration_rpm_per_s: {:.6g}, until: {}, "
         "timeout_s: {:.4g}, hold_s: 0.5}}\n",
         rpm, acceleration, until, patience_s);
   };
-  excite();
+  text += excite;
   for (const double speed : signal.speeds_rad_per_s) {
     spin(RadPerSToRpm(speed), "speed_reached");
-    excite();
+    text += excite;
   }
   spin(0.0, "standstill");
   return text + "  - {do: land, until: off, timeout_s: 5, hold_s: 0.2}\n";

@@ -35,6 +35,37 @@ constexpr const char* kBenchHelp =
     "counts as not named, in the size of that evidence.\n"
     "Example: amb bench diagnosis --seeds 34 --clean 10 --outside 10 --pairs 10";
 
+/// Of which rig, and how many of each kind.
+void AddTrialOptions(CLI::App& command, BenchOptions& options) {
+  command.add_option("--rig", options.rig, "Nominal rig");
+  command.add_option("--controller", options.controllers,
+                     "Controllers, drawn by seed; without it those shipped for the rig");
+  command.add_option("--seeds", options.seeds, "Trials with one hidden effect");
+  command.add_option("--clean", options.clean, "Trials with nothing hidden");
+  command.add_option("--outside", options.outside, "Trials outside the vocabulary");
+  command.add_option("--pairs", options.pairs, "Trials with two clear effects");
+  command.add_option("--weak", options.weak, "Trials with three small effects and a clear one");
+}
+
+/// What is done instead of the diagnoses.
+void AddInsteadOptions(CLI::App& command, BenchOptions& options) {
+  command.add_option("--spoilt", options.spoilt,
+                     "Instead: so many trials of records with an error of their own, as many "
+                     "healthy ones and two fifths with an effect, of which none may be accused");
+  command.add_option("--kind", options.kinds,
+                     "Of --spoilt only these: a kind of error (swapped, gaps, ...), healthy, "
+                     "effect; so many of each of the three groups");
+  command.add_option("--forecast", options.forecast,
+                     "Instead: so many healthy rigs, fitted at rest and at one speed, foretell a "
+                     "run-up: does the interval cover, and does calibration gain?");
+  command.add_flag("--isolability", options.isolability,
+                   "Instead: foretell what `amb diagnose --plan` would of every trial of --seeds, "
+                   "from records without the effect, and compare it with the diagnosis");
+  command.add_option("--answered", options.answered_path,
+                     "With --isolability: the --json of an earlier run of the same trials, whose "
+                     "answers are taken");
+}
+
 ExitStatus Run(const BenchOptions& options) {
   if (options.constants) {
     fmt::print("{}", diagnosis::JudgingMarkdown());
@@ -89,29 +120,8 @@ void AddBenchCommand(CLI::App& app, Action& action) {
   AddBenchLives(*bench, action);
   AddBenchMesh(*bench, action);
   command->footer(kBenchHelp);
-  command->add_option("--rig", options->rig, "Nominal rig");
-  command->add_option("--controller", options->controllers,
-                      "Controllers, drawn by seed; without it those shipped for the rig");
-  command->add_option("--seeds", options->seeds, "Trials with one hidden effect");
-  command->add_option("--clean", options->clean, "Trials with nothing hidden");
-  command->add_option("--outside", options->outside, "Trials outside the vocabulary");
-  command->add_option("--pairs", options->pairs, "Trials with two clear effects");
-  command->add_option("--weak", options->weak, "Trials with three small effects and a clear one");
-  command->add_option("--spoilt", options->spoilt,
-                      "Instead: so many trials of records with an error of their own, as many "
-                      "healthy ones and two fifths with an effect, of which none may be accused");
-  command->add_option("--kind", options->kinds,
-                      "Of --spoilt only these: a kind of error (swapped, gaps, ...), healthy, "
-                      "effect; so many of each of the three groups");
-  command->add_option("--forecast", options->forecast,
-                      "Instead: so many healthy rigs, fitted at rest and at one speed, foretell a "
-                      "run-up: does the interval cover, and does calibration gain?");
-  command->add_flag("--isolability", options->isolability,
-                    "Instead: foretell what `amb diagnose --plan` would of every trial of --seeds, "
-                    "from records without the effect, and compare it with the diagnosis");
-  command->add_option("--answered", options->answered_path,
-                      "With --isolability: the --json of an earlier run of the same trials, whose "
-                      "answers are taken");
+  AddTrialOptions(*command, *options);
+  AddInsteadOptions(*command, *options);
   command->add_option("--first", options->first, "Seed of the first trial");
   command->add_option("--effect", options->effects, "Only these effects");
   command->add_option("--size", options->sizes, "Sizes relative to clear, one after the other");

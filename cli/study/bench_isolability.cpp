@@ -141,16 +141,20 @@ nlohmann::ordered_json ComparedJson(const Compared& one) {
           {"entries_right", one.entries.right}};
 }
 
-}  // namespace
-
-nlohmann::ordered_json RunIsolability(const BenchOptions& options, const accuracy::TestRig& bench) {
-  const auto plans = Plans(options, bench);
+void RefuseOtherThanSingle(const std::vector<accuracy::TrialPlan>& plans) {
   for (const accuracy::TrialPlan& plan : plans) {
     if (plan.hidden.size() == 1 && plan.outside == accuracy::Unmodelled::kNothing) continue;
     throw Problem(ExitStatus::kUsage,
                   "--isolability foretells single effects: give --seeds, not --clean, --outside, "
                   "--pairs or --weak");
   }
+}
+
+}  // namespace
+
+nlohmann::ordered_json RunIsolability(const BenchOptions& options, const accuracy::TestRig& bench) {
+  const auto plans = Plans(options, bench);
+  RefuseOtherThanSingle(plans);
   const auto answers = ReadAnswers(options.answered_path);
   std::vector<Compared> compared(plans.size());
   std::mutex printing;

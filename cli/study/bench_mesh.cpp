@@ -118,22 +118,8 @@ void RunImpacts(const MeshOptions& options, const configuration::RigFile& rig,
   fmt::print("{}", table.Text());
 }
 
-ExitStatus Run(const MeshOptions& options) {
-  const configuration::RigFile rig =
-      configuration::LoadRig(configuration::FindConfig(options.rig, "rigs"));
-  gears::RefuseWithoutGears(rig);
-  const std::string& name = options.controller.empty() ? rig.run.controller : options.controller;
-  if (name.empty()) {
-    throw BadInput(rig.numbers.name + ": the rig names no controller; give one with --controller");
-  }
-  const configuration::ControllerFile controller =
-      configuration::LoadController(configuration::FindConfig(name, "controllers"), rig.numbers);
-  nlohmann::ordered_json json{{"rig", rig.numbers.name}, {"controller", controller.name}};
-  if (options.impact_n_m != 0.0) {
-    RunImpacts(options, rig, controller, json);
-    WriteJsonFile(options.json_path, json);
-    return ExitStatus::kDone;
-  }
+void RunSpeeds(const MeshOptions& options, const configuration::RigFile& rig,
+               const configuration::ControllerFile& controller, nlohmann::ordered_json& json) {
   report::TextTable table;
   bool first = true;
   for (const double hz : options.hz) {
@@ -160,6 +146,24 @@ ExitStatus Run(const MeshOptions& options) {
   fmt::print("rig {}, controller {}; rms of one second, levels against the rig without current\n",
              rig.numbers.name, controller.name);
   fmt::print("{}", table.Text());
+}
+
+ExitStatus Run(const MeshOptions& options) {
+  const configuration::RigFile rig =
+      configuration::LoadRig(configuration::FindConfig(options.rig, "rigs"));
+  gears::RefuseWithoutGears(rig);
+  const std::string& name = options.controller.empty() ? rig.run.controller : options.controller;
+  if (name.empty()) {
+    throw BadInput(rig.numbers.name + ": the rig names no controller; give one with --controller");
+  }
+  const configuration::ControllerFile controller =
+      configuration::LoadController(configuration::FindConfig(name, "controllers"), rig.numbers);
+  nlohmann::ordered_json json{{"rig", rig.numbers.name}, {"controller", controller.name}};
+  if (options.impact_n_m != 0.0) {
+    RunImpacts(options, rig, controller, json);
+  } else {
+    RunSpeeds(options, rig, controller, json);
+  }
   WriteJsonFile(options.json_path, json);
   return ExitStatus::kDone;
 }

@@ -135,9 +135,8 @@ diagnosis::ReportOrigin OriginOf(const DiagnoseOptions& options) {
   return origin;
 }
 
-ExitStatus Run(const DiagnoseOptions& options) {
-  KeepFreedMemory();
-  if (options.plans && options.out.empty()) return PlanBefore(options);
+/// Of a diagnosis, not of a plan before it.
+void CheckUsage(const DiagnoseOptions& options) {
   if (options.data.empty()) throw Problem(ExitStatus::kUsage, "DATA is required");
   if (options.out.empty()) throw Problem(ExitStatus::kUsage, "--out is required");
   if (options.plans && options.plan.empty()) {
@@ -148,6 +147,12 @@ ExitStatus Run(const DiagnoseOptions& options) {
     throw Problem(ExitStatus::kUsage,
                   "--scenario and --controller simulate records for --plan: leave out --out");
   }
+}
+
+ExitStatus Run(const DiagnoseOptions& options) {
+  KeepFreedMemory();
+  if (options.plans && options.out.empty()) return PlanBefore(options);
+  CheckUsage(options);
   diagnosis::DiagnosisRequest inputs;
   std::vector<std::string> records = options.data;
   records.insert(records.end(), options.holdout.begin(), options.holdout.end());
@@ -183,6 +188,28 @@ ExitStatus Run(const DiagnoseOptions& options) {
   return ExitStatus::kDone;
 }
 
+CLI::Option* AddPlanOptions(CLI::App& command, DiagnoseOptions& options) {
+  CLI::Option* plan =
+      command
+          .add_option("--plan", options.plan,
+                      "Without --out: diagnose nothing, but foretell which faults the records can "
+                      "tell apart, and what would help; FILE.yaml: also write the scenario that "
+                      "helps most. With --out: write to FILE.yaml the scenario that would separate "
+                      "what these data cannot; not written when nothing is left to separate")
+          ->expected(0, 1);
+  command.add_option("--scenario", options.scenarios,
+                     "With --plan: a scenario file or shipped name, simulated with the healthy "
+                     "rig instead of a record");
+  command.add_option("--controller", options.controller_name,
+                     "Of what --plan simulates; default: the one the rig file names");
+  command
+      .add_option("--size", options.size,
+                  "Of the faults of --plan, as a share of the size that `amb effects` calls clear")
+      ->check(CLI::Range(0.01, 1.0))
+      ->capture_default_str();
+  return plan;
+}
+
 }  // namespace
 
 void AddDiagnoseCommand(CLI::App& app, Action& action) {
@@ -198,25 +225,7 @@ void AddDiagnoseCommand(CLI::App& app, Action& action) {
   command->add_option("--healthy", options->healthy,
                       "Earlier records of the same rig in good condition: they narrow its "
                       "tolerances");
-  CLI::Option* plan =
-      command
-          ->add_option(
-              "--plan", options->plan,
-              "Without --out: diagnose nothing, but foretell which faults the records can "
-              "tell apart, and what would help; FILE.yaml: also write the scenario that "
-              "helps most. With --out: write to FILE.yaml the scenario that would separate "
-              "what these data cannot; not written when nothing is left to separate")
-          ->expected(0, 1);
-  command->add_option("--scenario", options->scenarios,
-                      "With --plan: a scenario file or shipped name, simulated with the healthy "
-                      "rig instead of a record");
-  command->add_option("--controller", options->controller_name,
-                      "Of what --plan simulates; default: the one the rig file names");
-  command
-      ->add_option("--size", options->size,
-                   "Of the faults of --plan, as a share of the size that `amb effects` calls clear")
-      ->check(CLI::Range(0.01, 1.0))
-      ->capture_default_str();
+  CLI::Option* plan = AddPlanOptions(*command, *options);
   command->add_option("--out", options->out,
                       "Folder for the answer; required except to --plan before a diagnosis");
   command->add_flag(

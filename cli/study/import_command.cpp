@@ -179,9 +179,7 @@ ExitStatus Suggest(const ImportCommandOptions& options) {
   return ExitStatus::kDone;
 }
 
-ExitStatus Import(const ImportCommandOptions& options) {
-  if (options.guess) return Guess(options);
-  if (options.suggest) return Suggest(options);
+void CheckImport(const ImportCommandOptions& options) {
   if (options.out_path.empty()) {
     throw Problem(
         ExitStatus::kUsage,
@@ -195,6 +193,30 @@ ExitStatus Import(const ImportCommandOptions& options) {
     session::CheckOutputPath(path, options.data_path);
   }
   session::CheckNoRecording(options.out_path, options.overwrite);
+}
+
+nlohmann::ordered_json ImportJson(const ImportCommandOptions& options, const RigNumbers& rig,
+                                  const session::ImportReport& report) {
+  std::vector<std::string> warnings;
+  for (const auto& column : report.implausible) warnings.push_back(column.sentence);
+  return {{"data", options.data_path},
+          {"rig", rig.name},
+          {"session", options.out_path},
+          {"samples", report.rows},
+          {"duration_s", report.duration_s},
+          {"drop_outs", report.drop_outs},
+          {"missing_samples", report.missing_cycles},
+          {"has_rotation", report.has_rotation},
+          {"has_excitation", report.has_excitation},
+          {"has_coil_currents", report.has_coil_currents},
+          {"ignored_columns", report.ignored_columns},
+          {"warnings", warnings}};
+}
+
+ExitStatus Import(const ImportCommandOptions& options) {
+  if (options.guess) return Guess(options);
+  if (options.suggest) return Suggest(options);
+  CheckImport(options);
   const configuration::RigFile rig =
       configuration::LoadRig(configuration::FindConfig(options.rig_name, "rigs"));
   session::ImportOptions import{.data_path = options.data_path,
@@ -216,20 +238,7 @@ ExitStatus Import(const ImportCommandOptions& options) {
       options.data_path.ends_with(".mat") ? session::ImportMat(import) : session::ImportCsv(import);
   Print(options.out_path, report, rig.numbers);
   EnterSession(options.out_path, options.tags);
-  std::vector<std::string> warnings;
-  for (const auto& column : report.implausible) warnings.push_back(column.sentence);
-  WriteJsonFile(options.json_path, {{"data", options.data_path},
-                                    {"rig", rig.numbers.name},
-                                    {"session", options.out_path},
-                                    {"samples", report.rows},
-                                    {"duration_s", report.duration_s},
-                                    {"drop_outs", report.drop_outs},
-                                    {"missing_samples", report.missing_cycles},
-                                    {"has_rotation", report.has_rotation},
-                                    {"has_excitation", report.has_excitation},
-                                    {"has_coil_currents", report.has_coil_currents},
-                                    {"ignored_columns", report.ignored_columns},
-                                    {"warnings", warnings}});
+  WriteJsonFile(options.json_path, ImportJson(options, rig.numbers, report));
   return ExitStatus::kDone;
 }
 

@@ -12,15 +12,30 @@ namespace {
 
 using namespace unit;
 
+struct HorseshoeConfig {
+  double turns{};
+  double pole_area_m2{};
+  double half_angle_rad{};
+};
+
+void DescribeHorseshoe(Visitor& v, HorseshoeConfig& shoe) {
+  v.Number({"turns", kOne, 1, 10000, kRequired,
+            "turns of one coil (both poles of the horseshoe together)"},
+           shoe.turns);
+  v.Number({"pole_area", kSquareMillimetre, 0.1, 1e6, kRequired, "face of one pole"},
+           shoe.pole_area_m2);
+  v.Number({"half_pole_angle", kDegree, 0, 80, kRequired,
+            "between a pole and the axis of its magnet; the gap is then that at the pole"},
+           shoe.half_angle_rad);
+}
+
 // The force constant k of F = k [((i0+ic)/(s0-x))^2 - ((i0-ic)/(s0+x))^2] is given in one of three
 // ways: directly; by ki = 4 k i0 / s0^2; or by the coil and its poles (docs/derivations.md (16a)),
 // whose gap is that at the pole: along the axis it is longer. Written directly, hence exactly.
 void DescribeStrength(Visitor& v, plant::MagnetConfig& magnet) {
   double constant = magnet.force_constant_n_m2_per_a2;
   double ki_n_per_a{};
-  double turns{};
-  double pole_area_m2{};
-  double half_angle_rad{};
+  HorseshoeConfig shoe;
   const std::array<Form, 3> forms{
       Form{"force_constant_n_m2_per_a2",
            [&] {
@@ -34,24 +49,14 @@ void DescribeStrength(Visitor& v, plant::MagnetConfig& magnet) {
                        "force per control current with the rotor centred, at the bias current"},
                       ki_n_per_a);
            }},
-      Form{"turns, pole_area_mm2 and half_pole_angle_deg", [&] {
-             v.Number({"turns", kOne, 1, 10000, kRequired,
-                       "turns of one coil (both poles of the horseshoe together)"},
-                      turns);
-             v.Number({"pole_area", kSquareMillimetre, 0.1, 1e6, kRequired, "face of one pole"},
-                      pole_area_m2);
-             v.Number(
-                 {"half_pole_angle", kDegree, 0, 80, kRequired,
-                  "between a pole and the axis of its magnet; the gap is then that at the pole"},
-                 half_angle_rad);
-           }}};
+      Form{"turns, pole_area_mm2 and half_pole_angle_deg", [&] { DescribeHorseshoe(v, shoe); }}};
   std::size_t chosen = 0;
   v.OneOf("the strength of the magnet", forms, chosen);
   if (chosen == 1) {
     constant = ki_n_per_a * magnet.gap_m * magnet.gap_m / (4.0 * magnet.bias_current_a);
   } else if (chosen == 2) {
     const magnet::AxisLaw law =
-        magnet::LawOfPoles(turns, pole_area_m2, half_angle_rad, magnet.gap_m);
+        magnet::LawOfPoles(shoe.turns, shoe.pole_area_m2, shoe.half_angle_rad, magnet.gap_m);
     constant = law.force_constant_n_m2_per_a2;
     magnet.gap_m = law.gap_m;
   } else if (chosen >= forms.size()) {

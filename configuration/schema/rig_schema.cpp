@@ -103,6 +103,33 @@ void DescribeAxes(Visitor& v, RigNumbers& numbers, plant::BearingConfig& bearing
   numbers.channels[x + 1] = stem + "y";
 }
 
+void DescribePlanes(Visitor& v, const plant::PlantConfig& plant, plant::BearingConfig& bearing) {
+  v.Number({"actuator_z", kMillimetre, 0, 100000, kRequired, "plane of the magnet and its contact"},
+           bearing.actuator_z_m);
+  RefuseBeyondShaft(v, plant.rotor, bearing.actuator_z_m, "actuator_z_mm");
+  RefuseBesideShaft(v, plant, bearing.shaft, bearing.actuator_z_m, "actuator_z_mm");
+  v.Number({"sensor_z", kMillimetre, 0, 100000, kRequired, "plane of the position sensors"},
+           bearing.sensor_z_m);
+  RefuseBeyondShaft(v, plant.rotor, bearing.sensor_z_m, "sensor_z_mm");
+  RefuseBesideShaft(v, plant, bearing.shaft, bearing.sensor_z_m, "sensor_z_mm");
+}
+
+// Values that are allowed each by itself, not together.
+void RefuseContradictions(Visitor& v, const RigNumbers& numbers,
+                          const plant::BearingConfig& bearing) {
+  const auto& drive = bearing.amplifier.voltage;
+  v.RefuseIf(drive && drive->dead_band_a >= numbers.max_coil_current_a, "amplifier",
+             fmt::format("dead band {:.6g} mA of the voltage must be smaller than max_current, "
+                         "{:.6g} mA, of which nothing would be left",
+                         drive ? drive->dead_band_a * 1e3 : 0.0, numbers.max_coil_current_a * 1e3));
+  v.RefuseIf(bearing.touchdown.clearance_m > bearing.sensor.range_m, "sensor",
+             fmt::format("sensor range {:.6g} um is smaller than the touchdown clearance {:.6g} um",
+                         bearing.sensor.range_m * 1e6, bearing.touchdown.clearance_m * 1e6));
+  v.RefuseIf(bearing.touchdown.clearance_m >= bearing.magnet.gap_m, "touchdown",
+             fmt::format("clearance {:.6g} um must be smaller than the air gap {:.6g} um",
+                         bearing.touchdown.clearance_m * 1e6, bearing.magnet.gap_m * 1e6));
+}
+
 void Describe(Visitor& v, RigFile& rig, plant::BearingConfig& bearing, std::size_t index) {
   const std::size_t x = 2 * index;
   v.Name({"name", "of the bearing; its axes are called after it"}, bearing.name);
@@ -113,14 +140,7 @@ void Describe(Visitor& v, RigFile& rig, plant::BearingConfig& bearing, std::size
              "name", fmt::format("found \"{}\", which an earlier bearing has", bearing.name));
   v.When(!rig.plant.shafts.empty(), "with shafts",
          [&] { DescribeShaftNumber(v, rig.plant, bearing.shaft); });
-  v.Number({"actuator_z", kMillimetre, 0, 100000, kRequired, "plane of the magnet and its contact"},
-           bearing.actuator_z_m);
-  RefuseBeyondShaft(v, rig.plant.rotor, bearing.actuator_z_m, "actuator_z_mm");
-  RefuseBesideShaft(v, rig.plant, bearing.shaft, bearing.actuator_z_m, "actuator_z_mm");
-  v.Number({"sensor_z", kMillimetre, 0, 100000, kRequired, "plane of the position sensors"},
-           bearing.sensor_z_m);
-  RefuseBeyondShaft(v, rig.plant.rotor, bearing.sensor_z_m, "sensor_z_mm");
-  RefuseBesideShaft(v, rig.plant, bearing.shaft, bearing.sensor_z_m, "sensor_z_mm");
+  DescribePlanes(v, rig.plant, bearing);
   bearing.magnet.bias_current_a = rig.numbers.bias_current_a;
   bearing.magnet.max_coil_current_a = rig.numbers.max_coil_current_a;
   v.Group("magnet", "two opposed coils an axis", [&] { Describe(v, bearing.magnet); });
@@ -140,18 +160,7 @@ void Describe(Visitor& v, RigFile& rig, plant::BearingConfig& bearing, std::size
   });
   v.Group("touchdown", "retainer bearing in the plane of the magnet",
           [&] { Describe(v, bearing.touchdown); });
-  const auto& drive = bearing.amplifier.voltage;
-  v.RefuseIf(
-      drive && drive->dead_band_a >= rig.numbers.max_coil_current_a, "amplifier",
-      fmt::format("dead band {:.6g} mA of the voltage must be smaller than max_current, "
-                  "{:.6g} mA, of which nothing would be left",
-                  drive ? drive->dead_band_a * 1e3 : 0.0, rig.numbers.max_coil_current_a * 1e3));
-  v.RefuseIf(bearing.touchdown.clearance_m > bearing.sensor.range_m, "sensor",
-             fmt::format("sensor range {:.6g} um is smaller than the touchdown clearance {:.6g} um",
-                         bearing.sensor.range_m * 1e6, bearing.touchdown.clearance_m * 1e6));
-  v.RefuseIf(bearing.touchdown.clearance_m >= bearing.magnet.gap_m, "touchdown",
-             fmt::format("clearance {:.6g} um must be smaller than the air gap {:.6g} um",
-                         bearing.touchdown.clearance_m * 1e6, bearing.magnet.gap_m * 1e6));
+  RefuseContradictions(v, rig.numbers, bearing);
 }
 
 void DescribeSampling(Visitor& v, RigFile& rig) {
@@ -166,6 +175,46 @@ void DescribeSampling(Visitor& v, RigFile& rig) {
            rig.plant.delay_samples);
   v.Integer({"substeps", 1, 1000, 4, "fixed integration steps of the simulation per period"},
             rig.plant.substeps);
+}
+
+void DescribeCoils(Visitor& v, RigNumbers& numbers) {
+  v.Number({"bias_current", kAmpere, 0.01, 100, kRequired, "i0: the coils carry i0+ic, i0-ic"},
+           numbers.bias_current_a);
+  v.Number({"max_current", kAmpere, 0.01, 200, kRequired, "a coil current stays within 0 and this"},
+           numbers.max_coil_current_a);
+  v.RefuseIf(numbers.max_coil_current_a <= numbers.bias_current_a, "max_current_a",
+             fmt::format("found {:.6g} A, but it must exceed the bias current {:.6g} A",
+                         numbers.max_coil_current_a, numbers.bias_current_a));
+}
+
+void DescribeGravity(Visitor& v, plant::PlantConfig& plant) {
+  v.Number({"acceleration", kGravity, 0, 100, 9.81, "0 for a vertical rotor"},
+           plant.gravity_m_per_s2);
+  v.RefuseIf(!plant.shafts.empty() && plant.gravity_m_per_s2 > 0.0, "acceleration_m_per_s2",
+             "must be 0 with shafts: their positions count from the rest under all static loads");
+  v.Number(
+      {"direction", kDegree, -360, 360, 225, "where it pulls in the x-y plane, from +x towards +y"},
+      plant.gravity_direction_rad);
+}
+
+void DescribeObjectives(Visitor& v, RigNumbers& numbers) {
+  v.Number({"standing_orbit", kMicrometre, 0.01, 5000, kRequired, "largest radius at standstill"},
+           numbers.standing_orbit_objective_m);
+  v.Number({"spinning_orbit", kMicrometre, 0.01, 5000, kRequired, "largest radius while rotating"},
+           numbers.spinning_orbit_objective_m);
+}
+
+void DescribeRun(Visitor& v, RigFile& rig) {
+  bool has_run = !rig.run.controller.empty();
+  v.OptionalGroup("run", "what the commands use with this rig unless told otherwise", has_run, [&] {
+    constexpr std::size_t kLongestPath = 1000;
+    v.Name({"controller",
+            "shipped name, or a path (with a /) from the folder of this file",
+            {},
+            kLongestPath},
+           rig.run.controller);
+    v.Name({"scenario", "the same", {}, kLongestPath}, rig.run.scenario);
+  });
 }
 
 void DescribeDrive(Visitor& v, RigFile& rig) {
@@ -274,16 +323,7 @@ void Derive(RigFile& rig) {
 void Describe(Visitor& v, RigFile& rig) {
   v.Name({"name", "of the rig"}, rig.numbers.name);
   v.Group("sampling", "of the control loop", [&] { DescribeSampling(v, rig); });
-  v.Group("coils", "of every bearing", [&] {
-    v.Number({"bias_current", kAmpere, 0.01, 100, kRequired, "i0: the coils carry i0+ic, i0-ic"},
-             rig.numbers.bias_current_a);
-    v.Number(
-        {"max_current", kAmpere, 0.01, 200, kRequired, "a coil current stays within 0 and this"},
-        rig.numbers.max_coil_current_a);
-    v.RefuseIf(rig.numbers.max_coil_current_a <= rig.numbers.bias_current_a, "max_current_a",
-               fmt::format("found {:.6g} A, but it must exceed the bias current {:.6g} A",
-                           rig.numbers.max_coil_current_a, rig.numbers.bias_current_a));
-  });
+  v.Group("coils", "of every bearing", [&] { DescribeCoils(v, rig.numbers); });
   bool has_rotor = rig.plant.shafts.empty();
   v.OptionalGroup("rotor", "the one rotor of the rig, free between its magnets", has_rotor,
                   [&] { Describe(v, rig.plant.rotor, rig.plant.unbalance); });
@@ -296,35 +336,13 @@ void Describe(Visitor& v, RigFile& rig) {
   const auto x_only = [](const plant::BearingConfig& bearing) { return bearing.x_only; };
   v.RefuseIf(rig.plant.bearings.size() > 1 && std::ranges::any_of(rig.plant.bearings, x_only),
              "bearings", "axes: x is for a rig with one bearing only");
-  v.Group("gravity", "where the weight of the rotor pulls", [&] {
-    v.Number({"acceleration", kGravity, 0, 100, 9.81, "0 for a vertical rotor"},
-             rig.plant.gravity_m_per_s2);
-    v.RefuseIf(geared && rig.plant.gravity_m_per_s2 > 0.0, "acceleration_m_per_s2",
-               "must be 0 with shafts: their positions count from the rest under all static loads");
-    v.Number({"direction", kDegree, -360, 360, 225,
-              "where it pulls in the x-y plane, from +x towards +y"},
-             rig.plant.gravity_direction_rad);
-  });
+  v.Group("gravity", "where the weight of the rotor pulls", [&] { DescribeGravity(v, rig.plant); });
   v.Group("drive", "motor of the rotor", [&] { DescribeDrive(v, rig); });
   Describe(v, rig.lines, static_cast<double>(rig.plant.period_ns) * 1e-9);
   DescribeBuses(v, rig);
-  v.Group("objectives", "what the verdict of a run is held against", [&] {
-    v.Number({"standing_orbit", kMicrometre, 0.01, 5000, kRequired, "largest radius at standstill"},
-             rig.numbers.standing_orbit_objective_m);
-    v.Number(
-        {"spinning_orbit", kMicrometre, 0.01, 5000, kRequired, "largest radius while rotating"},
-        rig.numbers.spinning_orbit_objective_m);
-  });
-  bool has_run = !rig.run.controller.empty();
-  v.OptionalGroup("run", "what the commands use with this rig unless told otherwise", has_run, [&] {
-    constexpr std::size_t kLongestPath = 1000;
-    v.Name({"controller",
-            "shipped name, or a path (with a /) from the folder of this file",
-            {},
-            kLongestPath},
-           rig.run.controller);
-    v.Name({"scenario", "the same", {}, kLongestPath}, rig.run.scenario);
-  });
+  v.Group("objectives", "what the verdict of a run is held against",
+          [&] { DescribeObjectives(v, rig.numbers); });
+  DescribeRun(v, rig);
   DescribeLog(v, rig.log);
   DescribeTolerances(v, rig.tolerances);
   Derive(rig);

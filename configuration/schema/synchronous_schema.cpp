@@ -78,6 +78,28 @@ void DescribeTable(Visitor& v, synchronous::BlockConfig& block, const RigNumbers
   }
 }
 
+// The speeds at which a block acts.
+void DescribeWindow(Visitor& v, synchronous::BlockConfig& block) {
+  v.Number({"from", kRpm, 0, kFastestTurningRpm, kRequired, "acts from this speed"},
+           block.from_rad_per_s);
+  v.Number({"to", kRpm, 0, kFastestTurningRpm, kRequired, "to this one"}, block.to_rad_per_s);
+  v.RefuseIf(block.to_rad_per_s <= block.from_rad_per_s, "to_rpm", "must be above from_rpm");
+  v.Number({"hysteresis", kRpm, 0, kFastestTurningRpm, 30, "so far beyond its window it ends"},
+           block.hysteresis_rad_per_s);
+  v.RefuseIf(block.from_rad_per_s <= block.hysteresis_rad_per_s, "from_rpm",
+             "must be above hysteresis_rpm: a block ends before the rotor stands");
+}
+
+void DescribeLargestCurrent(Visitor& v, synchronous::BlockConfig& block, const RigNumbers& rig) {
+  const double limit_a = std::min(rig.bias_current_a, rig.max_coil_current_a - rig.bias_current_a);
+  v.Number({"largest_current", kAmpere, 1e-4, 1e3, kRequired,
+            "amplitude of one axis; a block that needs more ends"},
+           block.largest_current_a);
+  v.RefuseIf(limit_a > 0.0 && block.largest_current_a > limit_a, "largest_current_a",
+             fmt::format("found {:.6g} A, the coils leave {:.6g} A to both sides of the bias",
+                         block.largest_current_a, limit_a));
+}
+
 void DescribeBlock(Visitor& v, synchronous::BlockConfig& block, const RigNumbers& rig) {
   v.Name({"name", "of this block, for its events"}, block.name);
   v.Number({"order", kOne, 0.01, 1000, 1, "multiple of the shaft's angle"}, block.order);
@@ -90,24 +112,8 @@ void DescribeBlock(Visitor& v, synchronous::BlockConfig& block, const RigNumbers
   block.target = target == 1 ? synchronous::Target::kVibration : synchronous::Target::kCurrent;
   v.Number({"time_constant", kSecond, 0.001, 100, 0.3, "of what is left, where T is exact"},
            block.time_constant_s);
-  v.Number({"from", kRpm, 0, kFastestTurningRpm, kRequired, "acts from this speed"},
-           block.from_rad_per_s);
-  v.Number({"to", kRpm, 0, kFastestTurningRpm, kRequired, "to this one"}, block.to_rad_per_s);
-  v.RefuseIf(block.to_rad_per_s <= block.from_rad_per_s, "to_rpm", "must be above from_rpm");
-  v.Number({"hysteresis", kRpm, 0, kFastestTurningRpm, 30, "so far beyond its window it ends"},
-           block.hysteresis_rad_per_s);
-  v.RefuseIf(block.from_rad_per_s <= block.hysteresis_rad_per_s, "from_rpm",
-             "must be above hysteresis_rpm: a block ends before the rotor stands");
-  v.When(target == 1, "with target: vibration", [&] {
-    const double limit_a =
-        std::min(rig.bias_current_a, rig.max_coil_current_a - rig.bias_current_a);
-    v.Number({"largest_current", kAmpere, 1e-4, 1e3, kRequired,
-              "amplitude of one axis; a block that needs more ends"},
-             block.largest_current_a);
-    v.RefuseIf(limit_a > 0.0 && block.largest_current_a > limit_a, "largest_current_a",
-               fmt::format("found {:.6g} A, the coils leave {:.6g} A to both sides of the bias",
-                           block.largest_current_a, limit_a));
-  });
+  DescribeWindow(v, block);
+  v.When(target == 1, "with target: vibration", [&] { DescribeLargestCurrent(v, block, rig); });
   DescribeSwitch(v, "adaptive",
                  "true: T is corrected by what the error answers while the block runs",
                  block.adaptive);

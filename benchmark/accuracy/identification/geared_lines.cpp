@@ -79,6 +79,24 @@ void AddTorsion(const plant::PlantConfig& rig, Index at, Rotor& r) {
   }
 }
 
+/// Translation of a shaft and, where it has some, its tilting.
+void AddLateral(const rotor::LumpedShaft& l, Index s, double turns, bool tilts, Rotor& r) {
+  for (Index axis = 0; axis < 2; ++axis) {
+    const Index x = 2 * s + axis;
+    r.mass(x, x) = l.mass_kg;
+    r.damping(x, x) = l.damping_n_s_per_m;
+    r.stiffness(x, x) = l.kll_n_per_m;
+    r.mesh(axis, x) = s == 0 ? 1.0 : -1.0;
+    if (!tilts) continue;
+    const Index a = 4 + x;
+    r.mass(a, a) = l.diametral_inertia_kg_m2;
+    r.stiffness(a, a) = l.kaa_n_m;
+    r.stiffness(x, a) = r.stiffness(a, x) = l.kla_n;
+    // - j Ip W psi': the x equation has + Ip W psi_y', the y equation - Ip W psi_x'.
+    r.damping(a, 4 + 2 * s + 1 - axis) += (axis == 0 ? 1.0 : -1.0) * l.polar_inertia_kg_m2 * turns;
+  }
+}
+
 Rotor Assemble(const plant::PlantConfig& rig, double speed) {
   const bool tilts = rig.shafts[0].lumped.tilts;
   const Index lateral = tilts ? 8 : 4;
@@ -91,24 +109,9 @@ Rotor Assemble(const plant::PlantConfig& rig, double speed) {
   Index twist = lateral;
   for (Index s = 0; s < 2; ++s) {
     const rotor::Shaft& shaft = rig.shafts[static_cast<std::size_t>(s)];
-    const rotor::LumpedShaft& l = shaft.lumped;
     const double turns =
         s == 0 ? speed : -speed * pair.driving.teeth / static_cast<double>(pair.driven.teeth);
-    for (Index axis = 0; axis < 2; ++axis) {
-      const Index x = 2 * s + axis;
-      r.mass(x, x) = l.mass_kg;
-      r.damping(x, x) = l.damping_n_s_per_m;
-      r.stiffness(x, x) = l.kll_n_per_m;
-      r.mesh(axis, x) = s == 0 ? 1.0 : -1.0;
-      if (!tilts) continue;
-      const Index a = 4 + x;
-      r.mass(a, a) = l.diametral_inertia_kg_m2;
-      r.stiffness(a, a) = l.kaa_n_m;
-      r.stiffness(x, a) = r.stiffness(a, x) = l.kla_n;
-      // - j Ip W psi': the x equation has + Ip W psi_y', the y equation - Ip W psi_x'.
-      r.damping(a, 4 + 2 * s + 1 - axis) +=
-          (axis == 0 ? 1.0 : -1.0) * l.polar_inertia_kg_m2 * turns;
-    }
+    AddLateral(shaft.lumped, s, turns, tilts, r);
     if (!shaft.torsion.inertias.empty()) {
       const double radius = s == 0 ? pair.driving.base_radius_m : pair.driven.base_radius_m;
       const Index at = twist + static_cast<Index>(shaft.torsion.gear_at);
@@ -151,16 +154,7 @@ class Loop {
       on_gear[side] -= KiOf(rig_.bearings[1]) * to_gear[side];
     }
     const auto& pair = rig_.gears.front();
-    Eigen::MatrixXcd dynamic = rotor_.stiffness.cast<Complex>() +
-                               kJ * w * rotor_.damping.cast<Complex>() -
-                               w * w * rotor_.mass.cast<Complex>();
     const Complex current = plan_.kp_a_per_m + kJ * w * plan_.kd_a_s_per_m;
-    for (Index s = 0; s < 2; ++s) {
-      const auto& bearing = rig_.bearings[static_cast<std::size_t>(s)];
-      for (Index axis = 0; axis < 2; ++axis) {
-        dynamic(2 * s + axis, 2 * s + axis) += KiOf(bearing) * current - KsOf(bearing);
-      }
-    }
     const Plane d = FromWhirl(teeth[0], teeth[1]);
     const Complex mesh = pair.stiffness_n_per_m + kJ * w * pair.damping_n_s_per_m;
     Eigen::VectorXcd force =
@@ -168,7 +162,7 @@ class Loop {
     const Plane p = FromWhirl(on_pinion[0], on_pinion[1]);
     const Plane g = FromWhirl(on_gear[0], on_gear[1]);
     force.head(4) += Eigen::Vector4cd(p.x, p.y, g.x, g.y);
-    const Eigen::VectorXcd q = Solve(dynamic, force, w);
+    const Eigen::VectorXcd q = Solve(DynamicStiffness(w, current), force, w);
     forward.speed_rad_per_s = backward.speed_rad_per_s = speed_;
     forward.frequency_rad_per_s = w;
     backward.frequency_rad_per_s = -w;
@@ -193,6 +187,20 @@ class Loop {
   void KeepMirrors() { keeps_mirrors_ = true; }
 
  private:
+  /// Of rotor and magnets, with the law's current per displacement.
+  [[nodiscard]] Eigen::MatrixXcd DynamicStiffness(double w, Complex current) const {
+    Eigen::MatrixXcd dynamic = rotor_.stiffness.cast<Complex>() +
+                               kJ * w * rotor_.damping.cast<Complex>() -
+                               w * w * rotor_.mass.cast<Complex>();
+    for (Index s = 0; s < 2; ++s) {
+      const auto& bearing = rig_.bearings[static_cast<std::size_t>(s)];
+      for (Index axis = 0; axis < 2; ++axis) {
+        dynamic(2 * s + axis, 2 * s + axis) += KiOf(bearing) * current - KsOf(bearing);
+      }
+    }
+    return dynamic;
+  }
+
   /// Forward and backward at +-w.
   [[nodiscard]] std::array<Complex, 2> AddedAt(double w, std::size_t shaft) const {
     std::array<Complex, 2> sum{};

@@ -52,6 +52,31 @@ scenario::ScenarioConfig ScenarioOf(const configuration::RigFile& rig, const Pum
   return scenario;
 }
 
+void Silence(plant::PlantConfig& rig) {
+  for (plant::BearingConfig& bearing : rig.bearings) bearing.sensor.noise_rms_m = 0.0;
+}
+
+/// Of commanded currents and readings, to be filled.
+identification::Series SeriesOf(const RigNumbers& rig, Index rows) {
+  const auto axes = static_cast<Index>(rig.axes());
+  return {rig.period_s(), rig.channels, rig.channels, Eigen::MatrixXd(rows, axes),
+          Eigen::MatrixXd(rows, axes)};
+}
+
+plant::PlantCommand CurrentsOf(const cycle::CycleOutputs& out) {
+  return {.control_current_a = out.current.control_current_a,
+          .bias_current_a = out.current.bias_current_a,
+          .amplifiers_enabled = out.current.amplifiers_enabled};
+}
+
+void ReadRow(const Eigen::MatrixXd& rows, Index row, AxisArray& axes) {
+  for (Index i = 0; i < rows.cols(); ++i) axes[static_cast<std::size_t>(i)] = rows(row, i);
+}
+
+void WriteRow(const AxisArray& axes, Index row, Eigen::MatrixXd& rows) {
+  for (Index i = 0; i < rows.cols(); ++i) rows(row, i) = axes[static_cast<std::size_t>(i)];
+}
+
 double LargestRadius(const SensorFrame& frame) {
   double largest_m = 0.0;
   for (std::size_t x = 0; x + 1 < frame.axes; x += 2) {
@@ -89,14 +114,12 @@ PumpTrial::PumpRecord PumpTrial::Record(std::uint64_t seed, const Twin& twin) co
   plant::PlantConfig config = rig_.plant;
   auto supervisor = controller_.supervisor;
   if (!twin.noise) {
-    for (plant::BearingConfig& bearing : config.bearings) bearing.sensor.noise_rms_m = 0.0;
+    Silence(config);
     supervisor.protection.sensor_frozen_cycles = 1'000'000;  // a reading without noise repeats
   }
-  const auto axes = static_cast<Index>(rig_.numbers.axes());
   const Index rows = plan_.fitted + kBetween + kJudged;
-  PumpRecord kept{{rig_.numbers.period_s(), rig_.numbers.channels, rig_.numbers.channels,
-                   Eigen::MatrixXd(rows, axes), Eigen::MatrixXd(rows, axes)},
-                  Eigen::MatrixXd(rows, axes)};
+  PumpRecord kept{SeriesOf(rig_.numbers, rows),
+                  Eigen::MatrixXd(rows, static_cast<Index>(rig_.numbers.axes()))};
   plant::Plant plant(config, seed);
   plant.RestInTouchdown();
   cycle::ControlCycle cycle({rig_.numbers, controller_.law, supervisor});
@@ -114,24 +137,17 @@ PumpTrial::PumpRecord PumpTrial::Record(std::uint64_t seed, const Twin& twin) co
                              cycle.decision().standing);
     if (row < 0 && asked.excitation_m[0] != 0.0) row = 0;
     if (row >= 0 && row < rows && twin.excitation_m != nullptr) {
-      for (Index i = 0; i < axes; ++i) {
-        asked.excitation_m[static_cast<std::size_t>(i)] = (*twin.excitation_m)(row, i);
-      }
+      ReadRow(*twin.excitation_m, row, asked.excitation_m);
     }
     in.op = {asked.command, 0.0, 0.0, asked.excitation_a, asked.excitation_m};
     out = cycle.Step(in);
     if (row >= 0 && row < rows) {
-      for (Index i = 0; i < axes; ++i) {
-        const auto at = static_cast<std::size_t>(i);
-        kept.series.input(row, i) = out.current.control_current_a[at];
-        kept.series.output(row, i) = in.frame.position_m[at];
-        kept.excitation_m(row, i) = asked.excitation_m[at];
-      }
+      WriteRow(out.current.control_current_a, row, kept.series.input);
+      WriteRow(in.frame.position_m, row, kept.series.output);
+      WriteRow(asked.excitation_m, row, kept.excitation_m);
       ++row;
     }
-    plant.Advance({.control_current_a = out.current.control_current_a,
-                   .bias_current_a = out.current.bias_current_a,
-                   .amplifiers_enabled = out.current.amplifiers_enabled});
+    plant.Advance(CurrentsOf(out));
   }
   if (row < rows) throw std::runtime_error("the pump's scenario ended early: " + player.Text());
   return kept;

@@ -101,38 +101,53 @@ svg::Panel WorstOverSpeed(const std::vector<Compared>& compared) {
   return panel;
 }
 
-svg::Figure Picture(const std::vector<Compared>& compared, const configuration::RigFile& rig,
-                    const std::vector<double>& speeds_rpm) {
-  svg::Figure figure;
-  figure.columns = 2;
-  AddBode(compared, rig, figure);
+svg::Panel PeakOverSpeed(const std::vector<Compared>& compared) {
   svg::Panel peaks{"largest |S| of an axis", "speed [rpm]", "[1]"};
   for (std::size_t c = 0; c < compared.size(); ++c) {
     svg::Series line{compared[c].name, compared[c].speed_rpm, compared[c].peak};
     line.colour = svg::Colour(c);
     peaks.series.push_back(std::move(line));
   }
-  figure.panels.push_back(peaks);
+  return peaks;
+}
+
+/// Which orbit of the runs.
+struct OrbitAt {
+  std::size_t speed{}, bearing{};
+};
+
+svg::Panel OrbitPanel(const std::vector<Compared>& compared, const configuration::RigFile& rig,
+                      const std::vector<double>& speeds_rpm, OrbitAt at) {
+  const double speed_rpm = speeds_rpm[at.speed];
+  const double objective_m = speed_rpm > 0.0 ? rig.numbers.spinning_orbit_objective_m
+                                             : rig.numbers.standing_orbit_objective_m;
+  svg::Panel panel{
+      fmt::format("orbit, {}, {:.0f} rpm", rig.numbers.bearings[at.bearing], speed_rpm), "x [µm]",
+      "y [µm]"};
+  panel.same_scale = true;
+  if (objective_m > 0.0) panel.series.push_back(Circle(1e6 * objective_m));
+  for (std::size_t c = 0; c < compared.size(); ++c) {
+    svg::Series orbit{compared[c].name};
+    orbit.colour = svg::Colour(c);
+    for (const AxisArray& centre_m : compared[c].runs[at.speed].positions_m) {
+      orbit.x.push_back(1e6 * centre_m[2 * at.bearing]);
+      orbit.y.push_back(1e6 * centre_m[2 * at.bearing + 1]);
+    }
+    panel.series.push_back(std::move(orbit));
+  }
+  return panel;
+}
+
+svg::Figure Picture(const std::vector<Compared>& compared, const configuration::RigFile& rig,
+                    const std::vector<double>& speeds_rpm) {
+  svg::Figure figure;
+  figure.columns = 2;
+  AddBode(compared, rig, figure);
+  figure.panels.push_back(PeakOverSpeed(compared));
   figure.panels.push_back(CurrentOverSpeed(compared, speeds_rpm));
   for (std::size_t i = 0; i < speeds_rpm.size(); ++i)
-    for (std::size_t b = 0; b < rig.numbers.bearings.size(); ++b) {
-      const double objective_m = speeds_rpm[i] > 0.0 ? rig.numbers.spinning_orbit_objective_m
-                                                     : rig.numbers.standing_orbit_objective_m;
-      svg::Panel panel{fmt::format("orbit, {}, {:.0f} rpm", rig.numbers.bearings[b], speeds_rpm[i]),
-                       "x [µm]", "y [µm]"};
-      panel.same_scale = true;
-      if (objective_m > 0.0) panel.series.push_back(Circle(1e6 * objective_m));
-      for (std::size_t c = 0; c < compared.size(); ++c) {
-        svg::Series orbit{compared[c].name};
-        orbit.colour = svg::Colour(c);
-        for (const AxisArray& at : compared[c].runs[i].positions_m) {
-          orbit.x.push_back(1e6 * at[2 * b]);
-          orbit.y.push_back(1e6 * at[2 * b + 1]);
-        }
-        panel.series.push_back(std::move(orbit));
-      }
-      figure.panels.push_back(std::move(panel));
-    }
+    for (std::size_t b = 0; b < rig.numbers.bearings.size(); ++b)
+      figure.panels.push_back(OrbitPanel(compared, rig, speeds_rpm, {i, b}));
   figure.panels.push_back(WorstOverSpeed(compared));
   return figure;
 }

@@ -31,6 +31,51 @@ nlohmann::ordered_json PeakJson(const design::Peak& peak) {
           {"speed_rpm", RadPerSToRpm(peak.speed_rad_per_s)}};
 }
 
+/// Poles, laws, |S| and mu.
+void PrintLoops(const configuration::RigFile& rig, const GateCommandOptions& options,
+                const design::GateOptions& gate, const design::GateResult& result) {
+  fmt::print("poles    {} loops from rest to {:.0f} rpm and {} corners: largest |z| {:.6f}\n",
+             result.loops, gate.over_speed * RadPerSToRpm(rig.numbers.max_speed_rad_per_s),
+             options.corners, result.pole_modulus);
+  if (result.rungs > 0)
+    fmt::print("laws     {} of the schedule, each at its speed{}\n", result.rungs,
+               !result.run_up        ? ""
+               : result.run_up->lost ? "; the rotor is lost in a run-up through them and back"
+                                     : fmt::format("; run-up through them and back: orbit {} um",
+                                                   Micrometres(result.run_up->orbit_m)));
+  if (result.exchanges > 0)
+    fmt::print("exchange {} of laws, each law judged as far beyond it as it may act\n",
+               result.exchanges);
+  fmt::print("|S|      {}; corners {}; largest singular value {}\n", PeakText(result.sensitivity),
+             PeakText(result.corner_sensitivity), PeakText(result.singular));
+  fmt::print("mu       at most {}, real parameters; were they complex, {}\n", PeakText(result.mu),
+             PeakText(result.mu_complex));
+  if (result.mu.value > 1.0 && !gate.mu) {
+    fmt::print(
+        "         above 1 is no instability: with currents and orbits weighed as for the "
+        "flexible_rotor's design, some rig of the uncertainty exceeds them; a limit with "
+        "--most-mu\n");
+  }
+}
+
+/// Of the drawn rigs on the nonlinear plant.
+void PrintRuns(const GateCommandOptions& options, const design::GateResult& result) {
+  fmt::print("runs     {} drawn rigs on the nonlinear plant{}\n", result.rigs,
+             options.third_n > 0.0
+                 ? fmt::format(", {:.2f} N at three times the speed", options.third_n)
+                 : "");
+  if (options.tolerances)
+    fmt::print("         drawn within the file's tolerances too: |S| {}\n",
+               PeakText(result.drawn_sensitivity));
+  report::TextTable table;
+  table.Add({"  rpm", "lost", "worst orbit [um]", "median [um]"});
+  for (const auto& at : result.drawn)
+    table.Add({fmt::format("  {:.0f}", RadPerSToRpm(at.speed_rad_per_s)),
+               fmt::format("{}", at.lost), Micrometres(at.worst_orbit_m),
+               Micrometres(at.median_orbit_m)});
+  fmt::print("{}", table.Text());
+}
+
 }  // namespace
 
 void AddUncertaintyOption(CLI::App& command, std::string& from) {
@@ -122,42 +167,8 @@ design::GateResult JudgeAndPrint(const configuration::RigFile& rig, const law::L
       design::Judge(rig, law, ParametersOf(rig, options.from), gate,
                     [&](double share, const std::string& what) { line.Show(share, what); });
   line.Close();
-  fmt::print("poles    {} loops from rest to {:.0f} rpm and {} corners: largest |z| {:.6f}\n",
-             result.loops, gate.over_speed * RadPerSToRpm(rig.numbers.max_speed_rad_per_s),
-             options.corners, result.pole_modulus);
-  if (result.rungs > 0)
-    fmt::print("laws     {} of the schedule, each at its speed{}\n", result.rungs,
-               !result.run_up        ? ""
-               : result.run_up->lost ? "; the rotor is lost in a run-up through them and back"
-                                     : fmt::format("; run-up through them and back: orbit {} um",
-                                                   Micrometres(result.run_up->orbit_m)));
-  if (result.exchanges > 0)
-    fmt::print("exchange {} of laws, each law judged as far beyond it as it may act\n",
-               result.exchanges);
-  fmt::print("|S|      {}; corners {}; largest singular value {}\n", PeakText(result.sensitivity),
-             PeakText(result.corner_sensitivity), PeakText(result.singular));
-  fmt::print("mu       at most {}, real parameters; were they complex, {}\n", PeakText(result.mu),
-             PeakText(result.mu_complex));
-  if (result.mu.value > 1.0 && !gate.mu) {
-    fmt::print(
-        "         above 1 is no instability: with currents and orbits weighed as for the "
-        "flexible_rotor's design, some rig of the uncertainty exceeds them; a limit with "
-        "--most-mu\n");
-  }
-  fmt::print("runs     {} drawn rigs on the nonlinear plant{}\n", result.rigs,
-             options.third_n > 0.0
-                 ? fmt::format(", {:.2f} N at three times the speed", options.third_n)
-                 : "");
-  if (options.tolerances)
-    fmt::print("         drawn within the file's tolerances too: |S| {}\n",
-               PeakText(result.drawn_sensitivity));
-  report::TextTable table;
-  table.Add({"  rpm", "lost", "worst orbit [um]", "median [um]"});
-  for (const auto& at : result.drawn)
-    table.Add({fmt::format("  {:.0f}", RadPerSToRpm(at.speed_rad_per_s)),
-               fmt::format("{}", at.lost), Micrometres(at.worst_orbit_m),
-               Micrometres(at.median_orbit_m)});
-  fmt::print("{}", table.Text());
+  PrintLoops(rig, options, gate, result);
+  PrintRuns(options, result);
   if (result.accepted)
     fmt::print("ACCEPTED by the checks above\n");
   else

@@ -53,6 +53,29 @@ double SpeedOf(double rpm) {
   return *configuration::ToSi(fmt::format("{}", rpm), configuration::unit::kRpm);
 }
 
+/// Speeds between which no block could work.
+void RefuseWindow(const synchronous::BlockConfig& block, const configuration::RigFile& rig) {
+  if (!(block.from_rad_per_s > block.hysteresis_rad_per_s)) {
+    throw Problem(
+        ExitStatus::kUsage,
+        "--from-rpm must be above --hysteresis-rpm: a block ends before the rotor stands");
+  }
+  if (!(block.to_rad_per_s > block.from_rad_per_s)) {
+    throw Problem(
+        ExitStatus::kUsage,
+        fmt::format("--to-rpm: found {:.6g}, must be above --from-rpm {:.6g}",
+                    RadPerSToRpm(block.to_rad_per_s), RadPerSToRpm(block.from_rad_per_s)));
+  }
+  const double nyquist_rpm = RadPerSToRpm(std::numbers::pi / rig.numbers.period_s()) / block.order;
+  if (RadPerSToRpm(block.to_rad_per_s + block.hysteresis_rad_per_s) >= nyquist_rpm) {
+    throw Problem(
+        ExitStatus::kUsage,
+        fmt::format("--to-rpm: order {:.6g} reaches half the sampling frequency at {:.0f} "
+                    "rpm; choose a lower speed",
+                    block.order, nyquist_rpm));
+  }
+}
+
 design::NotchRequest RequestOf(const NotchOptions& options, const configuration::RigFile& rig) {
   design::NotchRequest request;
   synchronous::BlockConfig& block = request.block;
@@ -82,25 +105,7 @@ design::NotchRequest RequestOf(const NotchOptions& options, const configuration:
   if (rig.numbers.axes() < 2 && request.direction != design::Direction::kBoth) {
     throw Problem(ExitStatus::kUsage, "--direction: the rig has one axis, which turns no way");
   }
-  if (!(block.from_rad_per_s > block.hysteresis_rad_per_s)) {
-    throw Problem(
-        ExitStatus::kUsage,
-        "--from-rpm must be above --hysteresis-rpm: a block ends before the rotor stands");
-  }
-  if (!(block.to_rad_per_s > block.from_rad_per_s)) {
-    throw Problem(
-        ExitStatus::kUsage,
-        fmt::format("--to-rpm: found {:.6g}, must be above --from-rpm {:.6g}",
-                    RadPerSToRpm(block.to_rad_per_s), RadPerSToRpm(block.from_rad_per_s)));
-  }
-  const double nyquist_rpm = RadPerSToRpm(std::numbers::pi / rig.numbers.period_s()) / block.order;
-  if (RadPerSToRpm(block.to_rad_per_s + block.hysteresis_rad_per_s) >= nyquist_rpm) {
-    throw Problem(
-        ExitStatus::kUsage,
-        fmt::format("--to-rpm: order {:.6g} reaches half the sampling frequency at {:.0f} "
-                    "rpm; choose a lower speed",
-                    block.order, nyquist_rpm));
-  }
+  RefuseWindow(block, rig);
   return request;
 }
 
@@ -219,6 +224,29 @@ std::vector<design::MeasuredPlant> MeasuredOf(const NotchOptions& options,
   return all;
 }
 
+void PrintBlock(const design::NotchRequest& request, const std::string& target) {
+  const synchronous::BlockConfig& block = request.block;
+  fmt::print("block {}: order {:.6g}, target {}, {:.0f} to {:.0f} rpm, T at {} speeds\n",
+             block.name, block.order, target, RadPerSToRpm(block.from_rad_per_s),
+             RadPerSToRpm(block.to_rad_per_s), block.inverse.size());
+  for (const design::MeasuredPlant& record : request.measured) {
+    fmt::print(
+        "T is of the answer measured at {:.0f} rpm, {:.2f} to {:.0f} Hz, and judged with it\n",
+        RadPerSToRpm(record.speed_rad_per_s), record.frequency_hz.front(),
+        record.frequency_hz.back());
+  }
+}
+
+void RefuseUnlessAllowed(const design::NotchFigures& figures) {
+  if (figures.allowed()) return;
+  throw Problem(
+      ExitStatus::kOther,
+      fmt::format("refused at {}; allowed {}; nothing was written. Choose --from-rpm and --to-rpm "
+                  "without the speeds refused; blocks of several windows stand in one file, by "
+                  "--name",
+                  figures.RefusedSpeeds(), figures.AllowedSpeeds()));
+}
+
 ExitStatus Run(const NotchOptions& options) {
   for (const std::string& path : {options.out_path, options.loop.json_path}) {
     session::CheckOutputPath(path, {});
@@ -232,15 +260,7 @@ ExitStatus Run(const NotchOptions& options) {
   const synchronous::BlockConfig& block = request.block;
   Put(file.synchronous, block);
   fmt::print("rig {}, controller {}\n{}", rig.numbers.name, ControllerText(controller), delay);
-  fmt::print("block {}: order {:.6g}, target {}, {:.0f} to {:.0f} rpm, T at {} speeds\n",
-             block.name, block.order, options.target, RadPerSToRpm(block.from_rad_per_s),
-             RadPerSToRpm(block.to_rad_per_s), block.inverse.size());
-  for (const design::MeasuredPlant& record : request.measured) {
-    fmt::print(
-        "T is of the answer measured at {:.0f} rpm, {:.2f} to {:.0f} Hz, and judged with it\n",
-        RadPerSToRpm(record.speed_rad_per_s), record.frequency_hz.front(),
-        record.frequency_hz.back());
-  }
+  PrintBlock(request, options.target);
   std::vector<configuration::RigFile> drawn;
   if (request.measured.empty()) {
     drawn =
@@ -249,15 +269,7 @@ ExitStatus Run(const NotchOptions& options) {
   const auto figures = design::JudgeNotch(rig, drawn, file.law, request);
   Print(figures, block.target == synchronous::Target::kVibration);
   WriteJsonFile(options.loop.json_path, Json(block, figures));
-  if (!figures.allowed()) {
-    throw Problem(
-        ExitStatus::kOther,
-        fmt::format(
-            "refused at {}; allowed {}; nothing was written. Choose --from-rpm and --to-rpm "
-            "without the speeds refused; blocks of several windows stand in one file, by "
-            "--name",
-            figures.RefusedSpeeds(), figures.AllowedSpeeds()));
-  }
+  RefuseUnlessAllowed(figures);
   if (!options.out_path.empty()) {
     WriteControllerFile(options.out_path,
                         fmt::format("# amb design notch: block {} accepted at every speed of its "

@@ -163,6 +163,16 @@ void PrintCoverage(const std::vector<Row>& rows, nlohmann::ordered_json& json) {
   print("ks/m", ks);
 }
 
+void PrintRandomStarts(const StartsOutcome& starts, const StartSpread& spread,
+                       nlohmann::ordered_json& json) {
+  fmt::print(
+      "  {} of {} random starts (+-{:.0f} % on everything, +-{:.0f} % on gains) reach the same "
+      "optimum; median {:.2f} s each\n",
+      starts.same, starts.starts, 100.0 * spread.everything, 100.0 * spread.gains,
+      starts.median_time_s);
+  json["starts"] = {{"tried", starts.starts}, {"same", starts.same}, {"apart", starts.apart}};
+}
+
 ExitStatus Run(const IdentificationBenchOptions& options) {
   const configuration::RigFile rig =
       configuration::LoadRig(configuration::FindConfig("flexible_rotor", "rigs"));
@@ -195,12 +205,7 @@ ExitStatus Run(const IdentificationBenchOptions& options) {
     if (rows.size() > 1 || options.starts == 0) continue;
     const StartsOutcome starts =
         TryStarts(result, responses, options.starts, options.spread, plan.seed);
-    fmt::print(
-        "  {} of {} random starts (+-{:.0f} % on everything, +-{:.0f} % on gains) reach the same "
-        "optimum; median {:.2f} s each\n",
-        starts.same, starts.starts, 100.0 * options.spread.everything, 100.0 * options.spread.gains,
-        starts.median_time_s);
-    json["starts"] = {{"tried", starts.starts}, {"same", starts.same}, {"apart", starts.apart}};
+    PrintRandomStarts(starts, options.spread, json);
   }
   PrintMedians(rows, json);
   PrintCoverage(rows, json);

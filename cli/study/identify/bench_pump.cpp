@@ -141,6 +141,53 @@ ExitStatus Run(const PumpOptions& given) {
   return ExitStatus::kDone;
 }
 
+/// By which the pump differs from the one shipped.
+void AddPumpOptions(CLI::App& command, accuracy::PumpPlan& plan) {
+  command.add_option("--knee-a", plan.knee_a, "Coil current at which the iron bends; 0 = straight")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  command.add_option("--knee-exponent", plan.knee_exponent, "Sharpness of the bend")
+      ->check(CLI::Range(1.0, 20.0))
+      ->capture_default_str();
+  command.add_option("--a2", plan.a2_1_per_m, "Sensor y + a2 y^2 + a3 y^3 [1/m]; signs alternate")
+      ->check(CLI::Range(-1e4, 1e4))
+      ->capture_default_str();
+  command.add_option("--a3", plan.a3_1_per_m2, "The same [1/m^2]")
+      ->check(CLI::Range(-1e8, 1e8))
+      ->capture_default_str();
+}
+
+void AddPumpModelOptions(CLI::App& command, PumpOptions& options) {
+  accuracy::PumpPlan& plan = options.plan;
+  command.add_option("--iron", options.iron, "Coefficients of the iron's curve")
+      ->check(CLI::Range(0, 6))
+      ->capture_default_str();
+  command
+      .add_option("--inputs", options.inputs,
+                  "Of the models: the commanded currents, or what the controllers make of the test "
+                  "signals alone, as the paper says")
+      ->check(CLI::IsMember({"commanded", "test_signals"}))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--horizon-rows", plan.horizons,
+          "Also predict so many rows ahead of the last reading, several separated by commas")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 4000))
+      ->capture_default_str();
+  command
+      .add_option("--fit-free-run", plan.free_run_steps,
+                  "NARX and NARMAX by the error of their free run, in so many steps of the search; "
+                  "0 = one step ahead only. With --inputs test_signals")
+      ->check(CLI::Range(0, 2000))
+      ->capture_default_str();
+  command
+      .add_option("--free-run-rows", plan.free_run_rows,
+                  "That --fit-free-run looks at: the last of the fitted ones")
+      ->check(CLI::Range(2000, 75'000))
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void AddBenchPump(CLI::App& bench, Action& action) {
@@ -148,53 +195,14 @@ void AddBenchPump(CLI::App& bench, Action& action) {
   CLI::App* command = bench.add_subcommand("pump", "Nonlinear models of the levitated pump");
   command->footer(kBenchPumpHelp);
   accuracy::PumpPlan& plan = options->plan;
-  command->add_option("--knee-a", plan.knee_a, "Coil current at which the iron bends; 0 = straight")
-      ->check(CLI::Range(0.0, 100.0))
-      ->capture_default_str();
-  command->add_option("--knee-exponent", plan.knee_exponent, "Sharpness of the bend")
-      ->check(CLI::Range(1.0, 20.0))
-      ->capture_default_str();
-  command->add_option("--a2", plan.a2_1_per_m, "Sensor y + a2 y^2 + a3 y^3 [1/m]; signs alternate")
-      ->check(CLI::Range(-1e4, 1e4))
-      ->capture_default_str();
-  command->add_option("--a3", plan.a3_1_per_m2, "The same [1/m^2]")
-      ->check(CLI::Range(-1e8, 1e8))
-      ->capture_default_str();
+  AddPumpOptions(*command, plan);
   command->add_option("--amplitude", plan.amplitude, "Of the scenario's excitation")
       ->check(CLI::Range(0.01, 3.0))
       ->capture_default_str();
   command->add_option("--fitted", plan.fitted, "Rows that are fitted, of 50 us")
       ->check(CLI::Range(8000, 75'000))
       ->capture_default_str();
-  command->add_option("--iron", options->iron, "Coefficients of the iron's curve")
-      ->check(CLI::Range(0, 6))
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--inputs", options->inputs,
-          "Of the models: the commanded currents, or what the controllers make of the test "
-          "signals alone, as the paper says")
-      ->check(CLI::IsMember({"commanded", "test_signals"}))
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--horizon-rows", plan.horizons,
-          "Also predict so many rows ahead of the last reading, several separated by commas")
-      ->delimiter(',')
-      ->check(CLI::Range(1, 4000))
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--fit-free-run", plan.free_run_steps,
-          "NARX and NARMAX by the error of their free run, in so many steps of the search; "
-          "0 = one step ahead only. With --inputs test_signals")
-      ->check(CLI::Range(0, 2000))
-      ->capture_default_str();
-  command
-      ->add_option("--free-run-rows", plan.free_run_rows,
-                   "That --fit-free-run looks at: the last of the fitted ones")
-      ->check(CLI::Range(2000, 75'000))
-      ->capture_default_str();
+  AddPumpModelOptions(*command, *options);
   command->add_option("--noise-seed", plan.noise_seed, "Of the sensors")->capture_default_str();
   command
       ->add_option("--excitation-seed", plan.excitation_seed,
