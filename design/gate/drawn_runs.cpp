@@ -57,6 +57,45 @@ void StartTurning(const RunOptions& options, double rate_rad_per_s2, plant::Plan
   command.acceleration_limit_rad_per_s2 = rate_rad_per_s2;
 }
 
+/// The reference leaves the touchdown bearing with the share `still` of the way to go.
+AxisArray ErrorOf(const RigNumbers& numbers, std::size_t axes, double still,
+                  const AxisArray& resting_m, const AxisArray& position_m) {
+  AxisArray error_m{};
+  for (std::size_t i = 0; i < axes; ++i)
+    error_m[i] = numbers.sensor_polarity[i] * (still * resting_m[i] - position_m[i]);
+  return error_m;
+}
+
+/// The orbit of each bearing, and whether the turning rotor left the room it may use.
+void WatchOrbits(const RigNumbers& numbers, std::size_t axes, const AxisArray& y, bool turning,
+                 bool watched, RunFigures& out) {
+  constexpr double kAllowedShare = 0.5;
+  for (std::size_t b = 0; b < out.orbit_m.size(); ++b) {
+    const double radius = std::hypot(y[2 * b], 2 * b + 1 < axes ? y[2 * b + 1] : 0.0);
+    if (turning) out.lost = out.lost || !(radius < kAllowedShare * numbers.ClearanceOf(b));
+    if (watched) out.orbit_m[b] = std::max(out.orbit_m[b], radius);
+  }
+}
+
+void WatchCurrents(const law::LawOutput& given, double angle_rad, Watch& watch) {
+  ++watch.seen;
+  watch.saturated += given.saturated_axes != 0 ? 1 : 0;
+  for (std::size_t i = 0; i < watch.sum.size(); ++i) {
+    watch.sum[i] += given.control_current_a[i];
+    watch.synchronous[i] += given.control_current_a[i] * std::polar(1.0, -angle_rad);
+  }
+}
+
+/// Static and synchronous currents as means over the watch.
+void TakeMeans(const Watch& watch, bool turns, RunFigures& out) {
+  const double count = std::max<double>(1.0, static_cast<double>(watch.seen));
+  out.saturated_share = static_cast<double>(watch.saturated) / count;
+  for (std::size_t i = 0; i < watch.sum.size(); ++i) {
+    out.static_a.push_back(watch.sum[i] / count);
+    out.synchronous_a.push_back(turns ? 2.0 * std::abs(watch.synchronous[i]) / count : 0.0);
+  }
+}
+
 }  // namespace
 
 configuration::RigFile WithThirdHarmonic(const configuration::RigFile& rig, double newtons) {
@@ -73,19 +112,17 @@ configuration::RigFile WithThirdHarmonic(const configuration::RigFile& rig, doub
 
 RunFigures RunOnce(const configuration::RigFile& rig, const law::LawConfig& law,
                    const RunOptions& options) {
-  constexpr double kAllowedShare = 0.5;
   plant::Plant plant(rig.plant, options.seed);
   plant.RestInTouchdown();
   const AxisArray resting_m = plant.SensorOutput();
   law::RunningLaw running(law);
   const double period_s = rig.numbers.period_s();
   const std::size_t axes = law.axis_count();
-  const std::size_t bearings = (axes + 1) / 2;
   const double w = options.speed_rad_per_s;
   const double rate = rig.plant.drive.max_acceleration_rad_per_s2;
   const Schedule when = ScheduleOf(options, period_s, options.run_up ? w / rate : 0.0);
   RunFigures out;
-  out.orbit_m.assign(bearings, 0.0);
+  out.orbit_m.assign((axes + 1) / 2, 0.0);
   Watch watch{std::vector<std::complex<double>>(axes), std::vector<double>(axes), 0, 0};
   plant::PlantCommand command;
   command.bias_current_a = rig.numbers.bias_current_a;
@@ -98,39 +135,22 @@ RunFigures RunOnce(const configuration::RigFile& rig, const law::LawConfig& law,
     const SensorFrame frame = plant.Sample();
     const double still =
         n < when.lift ? 1.0 - static_cast<double>(n) / static_cast<double>(when.lift) : 0.0;
-    AxisArray error_m{};
-    for (std::size_t i = 0; i < axes; ++i)
-      error_m[i] = rig.numbers.sensor_polarity[i] * (still * resting_m[i] - frame.position_m[i]);
+    const AxisArray error_m = ErrorOf(rig.numbers, axes, still, resting_m, frame.position_m);
     const law::LawOutput given =
         running.Step(frame.speed_rad_per_s, error_m, {}, law.current_limit_a);
     for (std::size_t i = 0; i < axes; ++i)
       command.control_current_a[i] = rig.numbers.actuator_polarity[i] * given.control_current_a[i];
     const AxisArray y = plant.SensorOutput();
     const bool watched = n >= when.settle;
-    for (std::size_t b = 0; b < bearings; ++b) {
-      const double radius = std::hypot(y[2 * b], 2 * b + 1 < axes ? y[2 * b + 1] : 0.0);
-      if (n >= when.turning)
-        out.lost = out.lost || !(radius < kAllowedShare * rig.numbers.ClearanceOf(b));
-      if (watched) out.orbit_m[b] = std::max(out.orbit_m[b], radius);
-    }
+    WatchOrbits(rig.numbers, axes, y, n >= when.turning, watched, out);
     if (watched) {
-      ++watch.seen;
-      watch.saturated += given.saturated_axes != 0 ? 1 : 0;
-      for (std::size_t i = 0; i < axes; ++i) {
-        watch.sum[i] += given.control_current_a[i];
-        watch.synchronous[i] += given.control_current_a[i] * std::polar(1.0, -plant.angle_rad());
-      }
+      WatchCurrents(given, plant.angle_rad(), watch);
       if (options.keep_orbit && n + when.kept >= when.all) out.positions_m.push_back(y);
     }
     plant.Advance(command);
     out.lost = out.lost || (n >= when.turning && plant.ContactForce() > 0.0) || !plant.finite();
   }
-  const double count = std::max<double>(1.0, static_cast<double>(watch.seen));
-  out.saturated_share = static_cast<double>(watch.saturated) / count;
-  for (std::size_t i = 0; i < axes; ++i) {
-    out.static_a.push_back(watch.sum[i] / count);
-    out.synchronous_a.push_back(w > 0.0 ? 2.0 * std::abs(watch.synchronous[i]) / count : 0.0);
-  }
+  TakeMeans(watch, w > 0.0, out);
   return out;
 }
 

@@ -63,12 +63,34 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
+/// [speed][bearing]: of every drawn rig that was not lost.
+using Orbits = std::vector<std::vector<std::vector<double>>>;
+
+/// One drawn rig at every speed; `worst_m` is the largest orbit of all of them so far.
+void RunAtSpeeds(const configuration::RigFile& drawn, const law::LawConfig& law, std::uint64_t seed,
+                 Orbits& orbits, double& worst_m, GateResult& out) {
+  for (std::size_t s = 0; s < out.drawn.size(); ++s) {
+    const auto run =
+        RunOnce(drawn, law, {.speed_rad_per_s = out.drawn[s].speed_rad_per_s, .seed = seed});
+    double largest_m = run.lost ? 1.0 : 0.0;
+    if (run.lost) ++out.drawn[s].lost;
+    for (std::size_t b = 0; b < orbits[s].size() && !run.lost; ++b) {
+      orbits[s][b].push_back(run.orbit_m[b]);
+      out.drawn[s].worst_orbit_m[b] = std::max(out.drawn[s].worst_orbit_m[b], run.orbit_m[b]);
+      largest_m = std::max(largest_m, run.orbit_m[b]);
+    }
+    if (largest_m > worst_m) {
+      worst_m = largest_m;
+      out.worst = drawn;
+    }
+  }
+}
+
 void RunDrawn(const configuration::RigFile& rig, const law::LawConfig& law,
               const std::vector<uncertainty::Parameter>& parameters, const GateOptions& options,
               const Progress& progress, GateResult& out) {
   const std::size_t bearings = rig.numbers.bearings.size();
-  std::vector<std::vector<std::vector<double>>> orbits(options.run_speeds_rad_per_s.size(),
-                                                       std::vector<std::vector<double>>(bearings));
+  Orbits orbits(options.run_speeds_rad_per_s.size(), std::vector<std::vector<double>>(bearings));
   for (const double speed : options.run_speeds_rad_per_s)
     out.drawn.push_back({speed, 0, std::vector<double>(bearings), std::vector<double>(bearings)});
   Random draw(options.seed);
@@ -82,22 +104,8 @@ void RunDrawn(const configuration::RigFile& rig, const law::LawConfig& law,
     if (options.tolerances)
       for (const double speed : {0.0, rig.numbers.max_speed_rad_per_s})
         JudgeLoop(drawn, law, speed, Of::kDrawn, out);
-    const auto pushed = WithThirdHarmonic(drawn, options.third_n);
-    for (std::size_t s = 0; s < out.drawn.size(); ++s) {
-      const auto run = RunOnce(
-          pushed, law, {.speed_rad_per_s = out.drawn[s].speed_rad_per_s, .seed = options.seed + n});
-      double largest_m = run.lost ? 1.0 : 0.0;
-      if (run.lost) ++out.drawn[s].lost;
-      for (std::size_t b = 0; b < bearings && !run.lost; ++b) {
-        orbits[s][b].push_back(run.orbit_m[b]);
-        out.drawn[s].worst_orbit_m[b] = std::max(out.drawn[s].worst_orbit_m[b], run.orbit_m[b]);
-        largest_m = std::max(largest_m, run.orbit_m[b]);
-      }
-      if (largest_m > worst_m) {
-        worst_m = largest_m;
-        out.worst = pushed;
-      }
-    }
+    RunAtSpeeds(WithThirdHarmonic(drawn, options.third_n), law, options.seed + n, orbits, worst_m,
+                out);
     ++out.rigs;
     progress(0.4 + 0.6 * static_cast<double>(n + 1) / static_cast<double>(options.draws),
              fmt::format("{} of {} drawn rigs", n + 1, options.draws));
@@ -163,17 +171,76 @@ void RunUp(const configuration::RigFile& rig, const law::LawConfig& law, const G
         fmt::format("the rotor is lost on the way to {:.0f} rpm and back", RadPerSToRpm(top));
 }
 
+std::vector<double> SpeedsOfGate(const law::LawConfig& law, const GateOptions& options,
+                                 double top) {
+  std::vector<double> speeds;
+  constexpr double kDenser = 5.0;  // where the law changes with the speed
+  const double step =
+      law.schedule.empty() ? options.step_rad_per_s : options.step_rad_per_s / kDenser;
+  for (double w = 0.0; w < options.over_speed * top + 1e-6; w += step) speeds.push_back(w);
+  if (speeds.empty()) speeds.push_back(0.0);
+  return speeds;
+}
+
+void JudgeCorners(const configuration::RigFile& rig, const law::LawConfig& law,
+                  const std::vector<uncertainty::Parameter>& parameters, const GateOptions& options,
+                  const Progress& progress, GateResult& out) {
+  Random draw(options.seed + 1000);
+  for (std::size_t c = 0; c < options.corners; ++c) {
+    const auto corner = uncertainty::At(rig, parameters, DrawCorner(draw, parameters.size()));
+    for (const double speed : {0.0, rig.numbers.max_speed_rad_per_s})
+      JudgeLoop(corner, law, speed, Of::kCorner, out);
+    progress(0.2 + 0.1 * static_cast<double>(c + 1) / static_cast<double>(options.corners),
+             "corners of the uncertainty");
+  }
+}
+
+/// |S| of the file's rig and of the corners against what is allowed.
+void JudgeSensitivity(const GateOptions& options, GateResult& out) {
+  if (out.reason.empty() && out.sensitivity.value > options.sensitivity)
+    out.reason = fmt::format("|S| reaches {:.2f} at {:.1f} Hz, {:.0f} rpm; allowed {:.2f}",
+                             out.sensitivity.value, out.sensitivity.hz,
+                             RadPerSToRpm(out.sensitivity.speed_rad_per_s), options.sensitivity);
+  if (out.reason.empty() && options.corner_sensitivity &&
+      out.corner_sensitivity.value > *options.corner_sensitivity)
+    out.reason = fmt::format(
+        "|S| reaches {:.2f} at {:.1f} Hz, {:.0f} rpm, in a corner; allowed {:.2f}",
+        out.corner_sensitivity.value, out.corner_sensitivity.hz,
+        RadPerSToRpm(out.corner_sensitivity.speed_rad_per_s), *options.corner_sensitivity);
+}
+
+/// Frequency and mu at it.
+using MuSamples = std::vector<std::pair<double, double>>;
+
+/// In the middle beside every peak of the sorted samples that is not bracketed closely yet.
+std::vector<double> FrequenciesBesidePeaks(const MuSamples& at) {
+  constexpr double kBracketed = 1.01;
+  std::vector<double> between;
+  const double largest = std::max_element(at.begin(), at.end(), [](auto& a, auto& b) {
+                           return a.second < b.second;
+                         })->second;
+  for (std::size_t i = 1; i + 1 < at.size(); ++i) {
+    const bool top = at[i].second >= at[i - 1].second && at[i].second >= at[i + 1].second;
+    if (!top || at[i].second < 0.7 * largest) continue;
+    for (const std::size_t k : {i - 1, i}) {
+      const double ratio = at[k].second / at[k + 1].second;
+      if (std::max(ratio, 1.0 / ratio) > kBracketed)
+        between.push_back(std::sqrt(at[k].first * at[k + 1].first));
+    }
+  }
+  return between;
+}
+
 }  // namespace
 
 MuPeaks MuPeakAt(const configuration::RigFile& rig, const law::LawConfig& law,
                  const std::vector<uncertainty::Parameter>& parameters,
                  const uncertainty::AnalysisWeights& weights, double speed) {
   constexpr int kPoints = 300;
-  constexpr double kBracketed = 1.01;
   constexpr double kLightlyDamped = 0.12;
   const uncertainty::UncertainPlant plant(rig, parameters, speed);
   const uncertainty::LawResponse response(law::LawAt(law, speed));
-  std::vector<std::pair<double, double>> at;
+  MuSamples at;
   const auto mu_of = [&](double hz) {
     const auto point = plant.At(hz);
     return uncertainty::ComplexMu(uncertainty::LoopMatrix(point, response.At(hz), weights),
@@ -190,19 +257,7 @@ MuPeaks MuPeakAt(const configuration::RigFile& rig, const law::LawConfig& law,
   }
   for (int turn = 0; turn < 6; ++turn) {
     std::sort(at.begin(), at.end());
-    std::vector<double> between;
-    const double largest = std::max_element(at.begin(), at.end(), [](auto& a, auto& b) {
-                             return a.second < b.second;
-                           })->second;
-    for (std::size_t i = 1; i + 1 < at.size(); ++i) {
-      const bool top = at[i].second >= at[i - 1].second && at[i].second >= at[i + 1].second;
-      if (!top || at[i].second < 0.7 * largest) continue;
-      for (const std::size_t k : {i - 1, i}) {
-        const double ratio = at[k].second / at[k + 1].second;
-        if (std::max(ratio, 1.0 / ratio) > kBracketed)
-          between.push_back(std::sqrt(at[k].first * at[k + 1].first));
-      }
-    }
+    const std::vector<double> between = FrequenciesBesidePeaks(at);
     if (between.empty()) break;
     for (const double hz : between) add(hz);
   }
@@ -242,13 +297,8 @@ GateResult Judge(const configuration::RigFile& rig, const law::LawConfig& law,
                  const std::vector<uncertainty::Parameter>& parameters, const GateOptions& options,
                  const Progress& progress) {
   GateResult out;
-  std::vector<double> speeds;
   const double top = rig.numbers.max_speed_rad_per_s;
-  constexpr double kDenser = 5.0;  // where the law changes with the speed
-  const double step =
-      law.schedule.empty() ? options.step_rad_per_s : options.step_rad_per_s / kDenser;
-  for (double w = 0.0; w < options.over_speed * top + 1e-6; w += step) speeds.push_back(w);
-  if (speeds.empty()) speeds.push_back(0.0);
+  const std::vector<double> speeds = SpeedsOfGate(law, options, top);
   for (const double speed : speeds) {
     JudgeLoop(rig, law, speed, Of::kFile, out);
     progress(0.2 * speed / std::max(speeds.back(), 1e-9),
@@ -259,23 +309,8 @@ GateResult Judge(const configuration::RigFile& rig, const law::LawConfig& law,
     JudgeExchanges(rig, law, options.over_speed * top, out);
     RunUp(rig, law, options, out);
   }
-  Random draw(options.seed + 1000);
-  for (std::size_t c = 0; c < options.corners; ++c) {
-    const auto corner = uncertainty::At(rig, parameters, DrawCorner(draw, parameters.size()));
-    for (const double speed : {0.0, top}) JudgeLoop(corner, law, speed, Of::kCorner, out);
-    progress(0.2 + 0.1 * static_cast<double>(c + 1) / static_cast<double>(options.corners),
-             "corners of the uncertainty");
-  }
-  if (out.reason.empty() && out.sensitivity.value > options.sensitivity)
-    out.reason = fmt::format("|S| reaches {:.2f} at {:.1f} Hz, {:.0f} rpm; allowed {:.2f}",
-                             out.sensitivity.value, out.sensitivity.hz,
-                             RadPerSToRpm(out.sensitivity.speed_rad_per_s), options.sensitivity);
-  if (out.reason.empty() && options.corner_sensitivity &&
-      out.corner_sensitivity.value > *options.corner_sensitivity)
-    out.reason = fmt::format(
-        "|S| reaches {:.2f} at {:.1f} Hz, {:.0f} rpm, in a corner; allowed {:.2f}",
-        out.corner_sensitivity.value, out.corner_sensitivity.hz,
-        RadPerSToRpm(out.corner_sensitivity.speed_rad_per_s), *options.corner_sensitivity);
+  JudgeCorners(rig, law, parameters, options, progress, out);
+  JudgeSensitivity(options, out);
   for (const double speed : {0.0, 0.5 * top, top}) {
     const MuPeaks peak = MuPeakAt(rig, law, parameters, options.weights, speed);
     Raise(out.mu, peak.of_real.value, peak.of_real.hz, speed);

@@ -156,6 +156,33 @@ double UnitOf(const plant::PlantModel& model, std::size_t mode) {
   return kShownUm * kMicrometre / shown;
 }
 
+/// What the moment moves of the kept modes, in their units; those left out leave the column, too.
+double UnitOfMoment(const plant::PlantModel& model, const std::vector<bool>& kept, Index first,
+                    Eigen::VectorXd& column) {
+  constexpr double kRigidHz = 50.0;  // where a levitated body swings, for the scale alone
+  double unit = 0.0;
+  for (Index i = 0; i < column.size(); ++i) {
+    if (!kept[static_cast<std::size_t>(first + i)]) column[i] = 0.0;
+    const auto mode = static_cast<std::size_t>(i);
+    const double w = std::max(model.frequency()[mode], kTwoPi * kRigidHz);
+    unit = std::max(unit, std::abs(column[i]) * w * UnitOf(model, mode));
+  }
+  return unit;
+}
+
+/// One more perturbation, along `column` of the velocities from `first` on.
+void AddPerturbation(Index first, const Eigen::VectorXd& column, double gain, double unit,
+                     Parts& out) {
+  const Index added = out.force.cols();
+  out.force.conservativeResize(Eigen::NoChange, added + 1);
+  out.seen.conservativeResize(added + 1, Eigen::NoChange);
+  out.force.col(added).setZero();
+  out.seen.row(added).setZero();
+  out.force.col(added).segment(first, column.size()) = column * gain;
+  out.seen.row(added).segment(first, column.size()) = column.transpose() / unit;
+  out.velocity.push_back(first);
+}
+
 /// Perturbations of the gyroscopic moments of both planes, beside those of the modes.
 void AddSpeed(const plant::PlantModel& model, const HinfWeights& weights, double top_speed,
               const std::vector<bool>& kept, Parts& out) {
@@ -164,31 +191,17 @@ void AddSpeed(const plant::PlantModel& model, const HinfWeights& weights, double
   const Eigen::SelfAdjointEigenSolver<MatrixXd> moments(modes.gyroscopic);
   const double most = moments.eigenvalues().size() > 0 ? moments.eigenvalues().maxCoeff() : 0.0;
   constexpr double kNothing = 1e-6;
-  constexpr double kRigidHz = 50.0;  // where a levitated body swings, for the scale alone
-  for (const bool y : {false, true})
+  for (const bool y : {false, true}) {
     for (Index k = 0; k < moments.eigenvalues().size(); ++k) {
       if (moments.eigenvalues()[k] <= kNothing * most) continue;
       Eigen::VectorXd column = std::sqrt(moments.eigenvalues()[k]) * moments.eigenvectors().col(k);
       const auto first = static_cast<Index>(y ? at.v_y : at.v_x);
-      double unit = 0.0;
-      for (Index i = 0; i < column.size(); ++i) {
-        if (!kept[static_cast<std::size_t>(first + i)]) column[i] = 0.0;
-        const auto mode = static_cast<std::size_t>(i);
-        const double w = std::max(model.frequency()[mode], kTwoPi * kRigidHz);
-        unit = std::max(unit, std::abs(column[i]) * w * UnitOf(model, mode));
-      }
+      double unit = UnitOfMoment(model, kept, first, column);
       if (!(unit > 0.0)) continue;
       unit *= weights.speed_unit;
-      const Index added = out.force.cols();
-      out.force.conservativeResize(Eigen::NoChange, added + 1);
-      out.seen.conservativeResize(added + 1, Eigen::NoChange);
-      out.force.col(added).setZero();
-      out.seen.row(added).setZero();
-      out.force.col(added).segment(first, column.size()) =
-          column * (weights.speed_ratio * top_speed * unit);
-      out.seen.row(added).segment(first, column.size()) = column.transpose() / unit;
-      out.velocity.push_back(first);
+      AddPerturbation(first, column, weights.speed_ratio * top_speed * unit, unit, out);
     }
+  }
 }
 
 Parts Prepare(const plant::PlantConfig& rig, const HinfWeights& weights, double top_speed) {
@@ -281,14 +294,13 @@ StateSpace Diagonal(const std::vector<StateSpace>& parts) {
   return out;
 }
 
-synthesis::GeneralisedPlant Weighted(const Plane& plane, const HinfWeights& weights) {
+/// Of modes, disc, disturbance, noise and control.
+StateSpace InputWeights(const Plane& plane, const HinfWeights& weights) {
   const auto axes = static_cast<Index>(plane.axes.size());
-  const Index modes = plane.modes;
-  const Index disc = plane.disc ? 1 : 0;
   const StateSpace fall = Shelf(1.0, weights.disturbance_floor, weights.disturbance_hz);
   std::vector<StateSpace> first;
-  if (modes > 0) first.push_back(Gain(MatrixXd::Identity(modes, modes)));
-  if (disc > 0)
+  if (plane.modes > 0) first.push_back(Gain(MatrixXd::Identity(plane.modes, plane.modes)));
+  if (plane.disc)
     first.push_back(
         Scaled(Shelf(1.0, weights.disturbance_floor, weights.disc_hz), weights.disc_ratio));
   for (const std::size_t axis : plane.axes)
@@ -296,8 +308,14 @@ synthesis::GeneralisedPlant Weighted(const Plane& plane, const HinfWeights& weig
         Scaled(fall, weights.disturbance_a * ShareOf(weights.bearing_disturbance, axis / 2)));
   first.push_back(Gain(MatrixXd::Identity(axes, axes) * (weights.noise_m / kMicrometre)));
   first.push_back(Gain(MatrixXd::Identity(axes, axes)));
+  return Diagonal(first);
+}
+
+/// Of modes, control and position, and the measurement as it is.
+StateSpace OutputWeights(const Plane& plane, const HinfWeights& weights) {
+  const auto axes = static_cast<Index>(plane.axes.size());
   std::vector<StateSpace> last;
-  if (modes > 0) last.push_back(Gain(MatrixXd::Identity(modes, modes)));
+  if (plane.modes > 0) last.push_back(Gain(MatrixXd::Identity(plane.modes, plane.modes)));
   for (Index i = 0; i < axes; ++i)
     last.push_back(Scaled(RisingWeight(weights.control_hz), 1.0 / weights.control_a));
   for (const std::size_t axis : plane.axes) {
@@ -306,6 +324,13 @@ synthesis::GeneralisedPlant Weighted(const Plane& plane, const HinfWeights& weig
                          weights.position_hz * weights.position_rest_m / above));
   }
   last.push_back(Gain(MatrixXd::Identity(axes, axes)));
+  return Diagonal(last);
+}
+
+synthesis::GeneralisedPlant Weighted(const Plane& plane, const HinfWeights& weights) {
+  const auto axes = static_cast<Index>(plane.axes.size());
+  const Index modes = plane.modes;
+  const Index disc = plane.disc ? 1 : 0;
   const MatrixXd one = MatrixXd::Identity(axes, axes);
   // modes, disc, d, n, u -> u; input of the nominal plant (u + d, modes, disc); n.
   MatrixXd in = MatrixXd::Zero(3 * axes + modes + disc, modes + disc + 3 * axes);
@@ -325,7 +350,8 @@ synthesis::GeneralisedPlant Weighted(const Plane& plane, const HinfWeights& weig
   const StateSpace middle = Append(Append(Gain(one), plane.nominal), Gain(one));
   synthesis::GeneralisedPlant built;
   built.system =
-      Series(Series(Series(Series(Diagonal(first), Gain(in)), middle), Gain(out)), Diagonal(last));
+      Series(Series(Series(Series(InputWeights(plane, weights), Gain(in)), middle), Gain(out)),
+             OutputWeights(plane, weights));
   built.controls = axes;
   built.measurements = axes;
   return built;

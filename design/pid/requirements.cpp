@@ -39,6 +39,17 @@ double RatioOf(Limit limit, double found, double allowed) {
   return found > allowed ? allowed / found : std::min(2.0 - found / allowed, kWorst);
 }
 
+/// Ratios of what is limited, and the margin.
+void TakeRatios(const PidLimits& limits, PidFigures& out) {
+  for (std::size_t i = 0; i < kLimits; ++i)
+    if (limits.at[i])
+      out.met[i].ratio = RatioOf(static_cast<Limit>(i), out.met[i].found, *limits.at[i]);
+  for (const Limit limit : {Limit::kSensitivity, Limit::kComplementary, Limit::kSingular})
+    out.margin = std::max(out.margin, out[limit].ratio);
+  if (limits.stiffen_to_m_per_n > 0.0)
+    out.margin = std::max(out.margin, out[Limit::kCompliance].found / limits.stiffen_to_m_per_n);
+}
+
 }  // namespace
 
 PidLimits UsualLimits(const configuration::RigFile& rig, double current_limit_a) {
@@ -160,13 +171,7 @@ PidFigures PidJudge::Of(const law::LawConfig& law, const std::vector<PlantToHold
   out[Limit::kCurrent] = {static_a + spinning.current_a + kDeviations * out[Limit::kNoise].found,
                           0.0, 0.0, spinning.current_rad_per_s};
   out[Limit::kAnyMode] = AnyMode(laws);
-  for (std::size_t i = 0; i < kLimits; ++i)
-    if (limits_.at[i])
-      out.met[i].ratio = RatioOf(static_cast<Limit>(i), out.met[i].found, *limits_.at[i]);
-  for (const Limit limit : {Limit::kSensitivity, Limit::kComplementary, Limit::kSingular})
-    out.margin = std::max(out.margin, out[limit].ratio);
-  if (limits_.stiffen_to_m_per_n > 0.0)
-    out.margin = std::max(out.margin, out[Limit::kCompliance].found / limits_.stiffen_to_m_per_n);
+  TakeRatios(limits_, out);
   return out;
 }
 

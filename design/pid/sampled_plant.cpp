@@ -117,6 +117,45 @@ plant::PlantModel ModelOf(const plant::PlantConfig& config, Known known) {
   return plant::PlantModel(std::move(parameters));
 }
 
+/// Force per current and per displacement of each axis.
+struct AxisSlopes {
+  std::vector<double> current, displacement;
+};
+
+/// At the point, or at the centre where nothing is carried.
+AxisSlopes SlopesOfAxes(const plant::PlantModel& model, const plant::OperatingPoint& point,
+                        bool carried) {
+  AxisSlopes out;
+  for (std::size_t b = 0; b < model.bearings().size(); ++b) {
+    const auto slopes = carried ? plant::SlopesAt(model, b, point) : SlopesAtCentre(model, b);
+    for (const int plane : {0, 1}) {
+      if (out.current.size() == model.channels()) continue;
+      out.current.push_back(slopes.current(plane, plane));
+      out.displacement.push_back(slopes.displacement(plane, plane));
+    }
+  }
+  return out;
+}
+
+/// A rotor that only its spin holds up has poles on the axis itself, where nothing can be counted:
+/// they are taken as damped by 0.002 %.
+void DampOnAxis(Complex& pole) {
+  constexpr double kOnAxis = 2e-5;
+  if (pole.imag() != 0.0 && std::abs(pole.real()) < kOnAxis * std::abs(pole))
+    pole.real(-kOnAxis * std::abs(pole));
+}
+
+/// Of each mode, output times input: real parts, then imaginary ones.
+std::vector<double> Residues(const Eigen::MatrixXcd& output, const Eigen::MatrixXcd& input) {
+  std::vector<double> out;
+  for (Index i = 0; i < output.cols(); ++i) {
+    const Eigen::MatrixXcd one = output.col(i) * input.row(i);
+    for (Index k = 0; k < one.size(); ++k) out.push_back(one.data()[k].real());
+    for (Index k = 0; k < one.size(); ++k) out.push_back(one.data()[k].imag());
+  }
+  return out;
+}
+
 }  // namespace
 
 SampledPlant::SampledPlant(const configuration::RigFile& rig, double speed_rad_per_s, Known known,
@@ -132,14 +171,9 @@ SampledPlant::SampledPlant(const configuration::RigFile& rig, double speed_rad_p
   failure_ = point.failure;
   const bool carried = failure_.empty();
   if (carried) static_a_ = point.control_a;
-  for (std::size_t b = 0; b < model.bearings().size(); ++b) {
-    const auto slopes = carried ? plant::SlopesAt(model, b, point) : SlopesAtCentre(model, b);
-    for (const int plane : {0, 1}) {
-      if (ki_.size() == model.channels()) continue;
-      ki_.push_back(slopes.current(plane, plane));
-      ks_.push_back(slopes.displacement(plane, plane));
-    }
-  }
+  AxisSlopes slopes = SlopesOfAxes(model, point, carried);
+  ki_ = std::move(slopes.current);
+  ks_ = std::move(slopes.displacement);
   auto modal = ModalForm(carried ? plant::Linearise(model, speed_rad_per_s, point)
                                  : plant::Linearise(model, speed_rad_per_s),
                          channels);
@@ -154,11 +188,7 @@ SampledPlant::SampledPlant(const configuration::RigFile& rig, double speed_rad_p
   constexpr double kStands = 0.1;  // 1/s: a free rotation, which no magnet sees
   for (Index i = 0; i < modes; ++i) {
     Complex& l = modal.poles[i];
-    // A rotor that only its spin holds up has poles on the axis itself, where nothing can be
-    // counted: they are taken as damped by 0.002 %.
-    constexpr double kOnAxis = 2e-5;
-    if (l.imag() != 0.0 && std::abs(l.real()) < kOnAxis * std::abs(l))
-      l.real(-kOnAxis * std::abs(l));
+    DampOnAxis(l);
     z_poles_[i] = std::exp(l * period_s_);
     now_[i] = Held(l, late_s);
     before_[i] = fraction > 0.0 ? std::exp(l * late_s) * Held(l, early_s) : 0.0;
@@ -170,11 +200,7 @@ SampledPlant::SampledPlant(const configuration::RigFile& rig, double speed_rad_p
     input_ = input_ * coordinates_.drive;
     output_ = coordinates_.measure * output_;
   }
-  for (Index i = 0; i < modes; ++i) {
-    const Eigen::MatrixXcd one = output_.col(i) * input_.row(i);
-    for (Index k = 0; k < one.size(); ++k) residue_.push_back(one.data()[k].real());
-    for (Index k = 0; k < one.size(); ++k) residue_.push_back(one.data()[k].imag());
-  }
+  residue_ = Residues(output_, input_);
   MakeGrid(modal.poles);
   TakeLightModes(modal.poles);
 }

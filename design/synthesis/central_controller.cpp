@@ -70,9 +70,12 @@ StateSpace InUnitsOfThePlant(const NormalPlant& plant, StateSpace k) {
   return out;
 }
 
-/// Theorem 17.1: every controller that meets gamma is this system with a stable parameter of norm
-/// below gamma closed round its last inputs and outputs. Hats of the book are dropped.
-StateSpace AllControllers(const NormalPlant& plant, const Solved& solved, double gamma) {
+/// What passes straight through the controllers of theorem 17.1; hats of the book are dropped.
+struct Feedthrough {
+  MatrixXd D11, D12, D21;
+};
+
+Feedthrough FeedthroughOf(const NormalPlant& plant, double gamma) {
   const Index u = plant.B2.cols();
   const Index y = plant.C2.rows();
   const Index z1 = plant.D11.rows() - u;
@@ -92,8 +95,18 @@ StateSpace AllControllers(const NormalPlant& plant, const Solved& solved, double
   if (z1 > 0) square21 -= D1112.transpose() * by_z.solve(D1112);
   if (w1 > 0) square12 -= D1121 * by_w.solve(D1121.transpose());
   if (z1 > 0 && w1 > 0) D11 -= D1121 * D1111.transpose() * by_z.solve(D1112);
-  const MatrixXd D12 = square12.llt().matrixL();
-  const MatrixXd D21 = square21.llt().matrixU();
+  return {D11, square12.llt().matrixL(), square21.llt().matrixU()};
+}
+
+/// Theorem 17.1: every controller that meets gamma is this system with a stable parameter of norm
+/// below gamma closed round its last inputs and outputs. Hats of the book are dropped.
+StateSpace AllControllers(const NormalPlant& plant, const Solved& solved, double gamma) {
+  const Index u = plant.B2.cols();
+  const Index y = plant.C2.rows();
+  const Index z1 = plant.D11.rows() - u;
+  const Index w1 = plant.D11.cols() - y;
+  const double g2 = gamma * gamma;
+  const auto [D11, D12, D21] = FeedthroughOf(plant, gamma);
   const MatrixXd& F = solved.regulator.gain;
   const MatrixXd L = solved.filter.gain.transpose();
   const MatrixXd F12 = F.middleRows(w1, y);

@@ -107,7 +107,7 @@ Eigen::VectorXd BalancingScale(const MatrixXcd& m, Index perturbations) {
   constexpr int kSweeps = 6;
   Eigen::MatrixXd size = m.cwiseAbs2();
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(m.rows());
-  for (int sweep = 0; sweep < kSweeps; ++sweep)
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (Index i = 0; i < perturbations; ++i) {
       const double row = size.row(i).sum() - size(i, i);
       const double column = size.col(i).sum() - size(i, i);
@@ -117,6 +117,7 @@ Eigen::VectorXd BalancingScale(const MatrixXcd& m, Index perturbations) {
       size.col(i) /= f * f;
       scale(i) *= f;
     }
+  }
   return scale;
 }
 
