@@ -109,28 +109,21 @@ Finding SocketBuffer(const Probe& probe) {
           "sudo sysctl -w net.core.rmem_max=4194304"};
 }
 
-}  // namespace
-
-std::vector<Finding> CheckLcm(const Probe& probe) {
-  return {MulticastRoute(probe), MulticastLoopback(probe), SocketBuffer(probe),
-          WhoMayCommand(probe)};
+Finding CanSockets(const Probe& probe, const Trial& socket) {
+  if (socket.worked) {
+    return {Area::kCan, "sockets", State::kOk, "the kernel has CAN sockets", ""};
+  }
+  if (HasModule(probe, "can")) {
+    return {Area::kCan, "sockets", State::kMissing,
+            "the kernel's CAN modules are not loaded (" + socket.reason + ")",
+            "sudo modprobe -a can can_raw vcan"};
+  }
+  return {Area::kCan, "sockets", State::kMissing,
+          fmt::format("kernel {} has no CAN ({})", probe.KernelRelease(), socket.reason),
+          "use a Debian kernel: sudo apt-get install linux-image-amd64, then restart"};
 }
 
-std::vector<Finding> CheckCan(const Probe& probe) {
-  std::vector<Finding> findings;
-  const Trial socket = probe.OpenCanSocket();
-  if (socket.worked) {
-    findings.push_back({Area::kCan, "sockets", State::kOk, "the kernel has CAN sockets", ""});
-  } else if (HasModule(probe, "can")) {
-    findings.push_back({Area::kCan, "sockets", State::kMissing,
-                        "the kernel's CAN modules are not loaded (" + socket.reason + ")",
-                        "sudo modprobe -a can can_raw vcan"});
-  } else {
-    findings.push_back(
-        {Area::kCan, "sockets", State::kMissing,
-         fmt::format("kernel {} has no CAN ({})", probe.KernelRelease(), socket.reason),
-         "use a Debian kernel: sudo apt-get install linux-image-amd64, then restart"});
-  }
+Finding CanInterfaces(const Probe& probe, const Trial& socket) {
   std::vector<std::string> fd;
   std::vector<std::string> classical;
   for (const std::string& name : probe.List("/sys/class/net", "")) {
@@ -139,28 +132,38 @@ std::vector<Finding> CheckCan(const Probe& probe) {
     (probe.ReadLine(folder + "/mtu") == kCanFdMtu ? fd : classical).push_back(name);
   }
   if (!socket.worked && !HasModule(probe, "can")) {
-    findings.push_back({Area::kCan, "interfaces", State::kMissing, "no CAN interface",
-                        "first a kernel with CAN (see sockets)"});
-  } else if (fd.empty() && classical.empty()) {
-    findings.push_back(
-        {Area::kCan, "interfaces", State::kMissing, "no CAN interface",
-         "sudo modprobe vcan && sudo ip link add vcan0 type vcan && sudo ip link set "
-         "vcan0 mtu 72 up"});
-  } else if (fd.empty()) {
-    const std::string& name = classical.front();
-    findings.push_back(
-        {Area::kCan, "interfaces", State::kDegraded,
-         fmt::format("{}: classical CAN only, 1.5 kHz for four axes", fmt::join(classical, ", ")),
-         fmt::format(
-             "sudo ip link set {0} down && sudo ip link set {0} type can bitrate 1000000 "
-             "dbitrate 5000000 fd on && sudo ip link set {0} up (vcan: sudo ip link set {0} "
-             "mtu 72)",
-             name)});
-  } else {
-    findings.push_back({Area::kCan, "interfaces", State::kOk,
-                        fmt::format("{} (CAN FD)", fmt::join(fd, ", ")), ""});
+    return {Area::kCan, "interfaces", State::kMissing, "no CAN interface",
+            "first a kernel with CAN (see sockets)"};
   }
-  return findings;
+  if (fd.empty() && classical.empty()) {
+    return {Area::kCan, "interfaces", State::kMissing, "no CAN interface",
+            "sudo modprobe vcan && sudo ip link add vcan0 type vcan && sudo ip link set "
+            "vcan0 mtu 72 up"};
+  }
+  if (fd.empty()) {
+    const std::string& name = classical.front();
+    return {
+        Area::kCan, "interfaces", State::kDegraded,
+        fmt::format("{}: classical CAN only, 1.5 kHz for four axes", fmt::join(classical, ", ")),
+        fmt::format("sudo ip link set {0} down && sudo ip link set {0} type can bitrate 1000000 "
+                    "dbitrate 5000000 fd on && sudo ip link set {0} up (vcan: sudo ip link set {0} "
+                    "mtu 72)",
+                    name)};
+  }
+  return {Area::kCan, "interfaces", State::kOk, fmt::format("{} (CAN FD)", fmt::join(fd, ", ")),
+          ""};
+}
+
+}  // namespace
+
+std::vector<Finding> CheckLcm(const Probe& probe) {
+  return {MulticastRoute(probe), MulticastLoopback(probe), SocketBuffer(probe),
+          WhoMayCommand(probe)};
+}
+
+std::vector<Finding> CheckCan(const Probe& probe) {
+  const Trial socket = probe.OpenCanSocket();
+  return {CanSockets(probe, socket), CanInterfaces(probe, socket)};
 }
 
 std::vector<Finding> CheckGpio(const Probe& probe) {

@@ -111,26 +111,37 @@ Eigen::MatrixXd SpreadOf(const RecordLandscape& landscape, const std::vector<Hyp
   return spread;
 }
 
-SearchResult Conclude(const RecordLandscape& landscape, const std::vector<Record>& all_records,
-                      const SelectionRules& rules, CauseSelection& found) {
-  landscape.ReportProgress(0.9, "analysing the residual");
+void RefuseLostSensitivities(const RecordLandscape& landscape) {
   if (SensitivitiesAreLost(landscape.view().sum)) {
     throw BadInput(
         "what the rig's numbers do to these records grows without end under every observer, so "
         "that nothing can be judged: are the speed's unit, and the modes of the rig file with "
         "their damping, those of the rig? (amb modes)");
   }
-  const Judging& judging = rules.judging;
-  SearchResult answer;
-  answer.speed = kSpeeds[landscape.speed()];
+}
+
+/// The model's runs with the causes. Causes that lower the likelihood of the validation data are
+/// dropped.
+std::shared_ptr<const std::vector<Trajectory>> RunsWithProvenCauses(
+    const RecordLandscape& landscape, const Judging& judging, CauseSelection& found) {
   auto runs = std::make_shared<const std::vector<Trajectory>>(landscape.RunAt(found.theta));
   const double held = HeldGain(*found.calibrated_runs, *runs, landscape.view().whitener);
   if (!found.causes.empty() && found.doubt == Doubt::kNothing && held < -judging.harm_nat) {
-    // Causes that lower the likelihood of the validation data are dropped.
     found.causes.clear();
     found.theta = found.calibrated;
     runs = found.calibrated_runs;
   }
+  return runs;
+}
+
+SearchResult Conclude(const RecordLandscape& landscape, const std::vector<Record>& all_records,
+                      const SelectionRules& rules, CauseSelection& found) {
+  landscape.ReportProgress(0.9, "analysing the residual");
+  RefuseLostSensitivities(landscape);
+  const Judging& judging = rules.judging;
+  SearchResult answer;
+  answer.speed = kSpeeds[landscape.speed()];
+  const auto runs = RunsWithProvenCauses(landscape, judging, found);
   answer.theta_extended = found.theta;
   answer.theta_calibrated = found.calibrated;
   answer.residual = AnalyseResidual(landscape.rig(), *runs);

@@ -141,6 +141,22 @@ std::vector<double> Leave(const BandSums& band, const std::vector<double>& apart
   return left;
 }
 
+/// By speed, what was foretold beside what was measured; returns the sum of the latter.
+Left CompareBands(const std::vector<BandSums>& bands, const std::vector<Drawn>& parts,
+                  Forecast& forecast) {
+  const std::size_t axes = bands.front().motion_m2.size();
+  Left measured(axes);
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    Left alone(axes);
+    alone.Add(bands[b], bands[b].left_m2);
+    measured.Add(bands[b], bands[b].left_m2);
+    forecast.by_speed.push_back({bands[b].from_rad_per_s, bands[b].to_rad_per_s,
+                                 Middle(parts[b].residual_m), alone.Rms(),
+                                 Middle(parts[b].fit_percent), alone.FitPercent()});
+  }
+  return measured;
+}
+
 }  // namespace
 
 Forecast IntervalsOf(const std::vector<BandSums>& bands, const std::vector<NoiseBlock>& noise,
@@ -171,15 +187,7 @@ Forecast IntervalsOf(const std::vector<BandSums>& bands, const std::vector<Noise
     }
     whole.Add(all);
   }
-  Left measured(axes);
-  for (std::size_t b = 0; b < bands.size(); ++b) {
-    Left alone(axes);
-    alone.Add(bands[b], bands[b].left_m2);
-    measured.Add(bands[b], bands[b].left_m2);
-    forecast.by_speed.push_back({bands[b].from_rad_per_s, bands[b].to_rad_per_s,
-                                 Middle(parts[b].residual_m), alone.Rms(),
-                                 Middle(parts[b].fit_percent), alone.FitPercent()});
-  }
+  const Left measured = CompareBands(bands, parts, forecast);
   forecast.better_than_file = ChanceToBeBetter(bands, noise);
   forecast.fit_percent = Middle(whole.fit_percent);
   forecast.fit_measured_percent = measured.FitPercent();

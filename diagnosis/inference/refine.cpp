@@ -28,6 +28,51 @@ class LevenbergDamping {
   double value_{0.0};
 };
 
+/// What a pass of Refiner::Approach leaves to the next one.
+struct Descent {
+  Refined best;
+  std::vector<double> theta;
+  LevenbergDamping damping;
+  Whitener whitener;
+  std::shared_ptr<const Slopes> slopes;
+  bool current = false;  ///< the Jacobian was taken at best.theta
+  int refused = 0;
+};
+
+/// A shorter step in place of the one that was refused; false: enough were.
+bool Shorten(const Search& search, Descent& d) {
+  // The damping counts in the priors' information, and a lightly damped mode may be known ten
+  // thousand times better than its prior says: with the Jacobian of this point it grows until that
+  // is held, too.
+  constexpr int kMostRefused = 4;
+  constexpr int kMostRefusedHere = 8;
+  if (++d.refused > (d.current ? kMostRefusedHere : kMostRefused)) return false;
+  d.damping.Refuse();
+  d.theta = search.Step(d.best.problem, {}, d.best.theta, d.damping.value());
+  return true;
+}
+
+/// No step with the Jacobian of an earlier point succeeded; take it at the best point.
+void ReturnToBest(Descent& d) {
+  d.refused = 0;
+  d.damping = {};
+  d.theta = d.best.theta;
+  d.slopes.reset();
+}
+
+/// From theta, where the model ran, with a new Jacobian if it is to be current.
+void StepOn(const Search& search, const std::vector<Term>& terms,
+            const std::vector<Trajectory>& runs, Descent& d) {
+  if (d.current) {
+    d.slopes =
+        std::make_shared<const Slopes>(search.rig(), runs, terms, d.theta, search.Nuisances());
+  }
+  d.best.problem = search.About(d.slopes->Sum(runs, d.whitener), d.theta);
+  d.best.evidence = Refiner::EvidenceOfSet(d.best.problem, terms, {});
+  d.damping.Accept();
+  d.theta = search.Step(d.best.problem, {}, d.best.theta, d.damping.value());
+}
+
 }  // namespace
 
 double Refiner::Penalty(const std::vector<double>& theta,
@@ -204,56 +249,32 @@ Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order
                           int passes) const {
   constexpr double kConverged = 1.0;  // [nat]
   constexpr double kFar = 100.0;      // [nat] a step that gains more has left its linearisation
-  // The damping counts in the priors' information, and a lightly damped mode may be known ten
-  // thousand times better than its prior says: with the Jacobian of this point it grows until that
-  // is held, too.
-  constexpr int kMostRefused = 4;
-  constexpr int kMostRefusedHere = 8;
-  Refined best;
-  std::vector<double> theta = std::move(start);
-  LevenbergDamping damping;
-  Whitener whitener;
-  std::shared_ptr<const Slopes> slopes;
-  bool current = false;  // the Jacobian was taken at best.theta
-  int refused = 0;
+  Descent d;
+  d.theta = std::move(start);
   for (int pass = 0; pass < passes;) {
-    auto runs = search_.Run(records_, gains_, theta);
+    auto runs = search_.Run(records_, gains_, d.theta);
     const double gained =
-        pass == 0 ? std::numeric_limits<double>::infinity()
-                  : best.cost - 0.5 * (SquaredSum(runs, axes_, whitener) + Penalty(theta, {}));
+        pass == 0
+            ? std::numeric_limits<double>::infinity()
+            : d.best.cost - 0.5 * (SquaredSum(runs, axes_, d.whitener) + Penalty(d.theta, {}));
     if (pass > 0 && !(std::isfinite(gained) && gained > -kConverged)) {
-      if (++refused <= (current ? kMostRefusedHere : kMostRefused)) {
-        damping.Refuse();
-        theta = search_.Step(best.problem, {}, best.theta, damping.value());
-        continue;
-      }
-      if (current) break;
-      // No step with the Jacobian of an earlier point succeeded; take it at the best point.
-      refused = 0;
-      damping = {};
-      runs = search_.Run(records_, gains_, best.theta);
-      theta = best.theta;
-      slopes.reset();
+      if (Shorten(search_, d)) continue;
+      if (d.current) break;
+      ReturnToBest(d);
+      runs = search_.Run(records_, gains_, d.theta);
     }
-    whitener = search_.WhitenerOf(runs, whitening_order);
-    best.cost = 0.5 * (SquaredSum(runs, axes_, whitener) + Penalty(theta, {}));
-    if (!std::isfinite(best.cost)) break;
-    best.theta = theta;
-    best.ok = true;
-    refused = 0;
-    if (gained < kConverged && current) break;
-    current = !slopes || gained > kFar || gained < kConverged;
-    if (current) {
-      slopes =
-          std::make_shared<const Slopes>(search_.rig(), runs, terms_, theta, search_.Nuisances());
-    }
-    best.problem = search_.About(slopes->Sum(runs, whitener), theta);
-    best.evidence = EvidenceOfSet(best.problem, terms_, {});
-    damping.Accept();
-    theta = search_.Step(best.problem, {}, best.theta, damping.value());
+    d.whitener = search_.WhitenerOf(runs, whitening_order);
+    d.best.cost = 0.5 * (SquaredSum(runs, axes_, d.whitener) + Penalty(d.theta, {}));
+    if (!std::isfinite(d.best.cost)) break;
+    d.best.theta = d.theta;
+    d.best.ok = true;
+    d.refused = 0;
+    if (gained < kConverged && d.current) break;
+    d.current = !d.slopes || gained > kFar || gained < kConverged;
+    StepOn(search_, terms_, runs, d);
     ++pass;
   }
-  return best;
+  return std::move(d.best);
 }
 
 }  // namespace levitas::diagnosis

@@ -7,46 +7,57 @@
 namespace levitas::levitator {
 namespace {
 
+void AddCause(const char* where, std::vector<std::size_t> moves, std::vector<Cause>& causes) {
+  causes.push_back({std::string(Table()[moves.front()].effect), where, std::move(moves), 0.0});
+}
+
+/// Of the loop, the coils, what their current does, and their probes.
+void AddCoilCauses(std::vector<Cause>& causes) {
+  AddCause("whole rig", {kDelay}, causes);
+  AddCause("both coils", {kSupply}, causes);
+  AddCause("both coils", {kResistance}, causes);
+  AddCause("both coils", {kInductance}, causes);
+  AddCause("lower coil", {kAwayInductance}, causes);
+  AddCause("both coils", {kProfile}, causes);
+  AddCause("both coils, another size at no gap", {kProfile, kInductance}, causes);
+  AddCause("inductance", {kIronInductance}, causes);
+  AddCause("force", {kForceKnee}, causes);
+  AddCause("force and inductance", {kForceKnee, kIronInductance}, causes);
+  AddCause("both coils", {kDeadBand}, causes);
+  AddCause("both coils", {kDriveCurve}, causes);
+  AddCause("both coils", {kHeating}, causes);
+  AddCause("both coils", {kMotionEmf}, causes);
+  AddCause("winding", {kEddyShare}, causes);
+  AddCause("force", {kForceLag}, causes);
+  AddCause("winding and force", {kEddyShare, kForceLag}, causes);
+  AddCause("both coils", {kMutual}, causes);
+  AddCause("lower coil", {kAwaySupply}, causes);
+  AddCause("both probes", {kProbeGain}, causes);
+  AddCause("both probes", {kProbeOffset}, causes);
+  AddCause("both probes", {kProbeLag}, causes);
+}
+
+/// Of the force over current and place, the position sensor and the ball.
+void AddBallCauses(std::vector<Cause>& causes) {
+  AddCause("ball_x", {kForce}, causes);
+  AddCause("ball_x", {kForceDecay}, causes);
+  AddCause("both coils", {kForceExponent}, causes);
+  AddCause("lower coil", {kForceAway}, causes);
+  AddCause("ball_x", {kSensorGain}, causes);
+  AddCause("ball_x", {kSensorOffset}, causes);
+  AddCause("ball_x", {kSensorSquare, kSensorCube}, causes);
+  AddCause("ball_x", {kSensorLag}, causes);
+  AddCause("ball", {kMass}, causes);
+  AddCause("ball_x", {kLoad}, causes);
+  AddCause("ball", {kDamping}, causes);
+  AddCause("ball", {kDryFriction}, causes);
+  AddCause("ball_x", {kSpring}, causes);
+}
+
 std::vector<Cause> Make() {
   std::vector<Cause> causes;
-  const auto add = [&](const char* where, std::vector<std::size_t> moves) {
-    causes.push_back({std::string(Table()[moves.front()].effect), where, std::move(moves), 0.0});
-  };
-  add("whole rig", {kDelay});
-  add("both coils", {kSupply});
-  add("both coils", {kResistance});
-  add("both coils", {kInductance});
-  add("lower coil", {kAwayInductance});
-  add("both coils", {kProfile});
-  add("both coils, another size at no gap", {kProfile, kInductance});
-  add("inductance", {kIronInductance});
-  add("force", {kForceKnee});
-  add("force and inductance", {kForceKnee, kIronInductance});
-  add("both coils", {kDeadBand});
-  add("both coils", {kDriveCurve});
-  add("both coils", {kHeating});
-  add("both coils", {kMotionEmf});
-  add("winding", {kEddyShare});
-  add("force", {kForceLag});
-  add("winding and force", {kEddyShare, kForceLag});
-  add("both coils", {kMutual});
-  add("lower coil", {kAwaySupply});
-  add("both probes", {kProbeGain});
-  add("both probes", {kProbeOffset});
-  add("both probes", {kProbeLag});
-  add("ball_x", {kForce});
-  add("ball_x", {kForceDecay});
-  add("both coils", {kForceExponent});
-  add("lower coil", {kForceAway});
-  add("ball_x", {kSensorGain});
-  add("ball_x", {kSensorOffset});
-  add("ball_x", {kSensorSquare, kSensorCube});
-  add("ball_x", {kSensorLag});
-  add("ball", {kMass});
-  add("ball_x", {kLoad});
-  add("ball", {kDamping});
-  add("ball", {kDryFriction});
-  add("ball_x", {kSpring});
+  AddCoilCauses(causes);
+  AddBallCauses(causes);
   for (Cause& cause : causes) {
     const auto same = std::count_if(causes.begin(), causes.end(), [&](const Cause& other) {
       return other.effect == cause.effect;

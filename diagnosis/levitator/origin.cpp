@@ -24,6 +24,14 @@ bool IsRatio(std::size_t i) {
 
 double LagOf(double bandwidth_hz) { return 1.0 / (2.0 * std::numbers::pi * bandwidth_hz); }
 
+[[noreturn]] void RefuseEffect(const effect::EffectConfig& entry,
+                               const configuration::RigFile& file) {
+  throw BadInput(
+      fmt::format("rig {}: effects: `{}` has no place in the diagnosis of a ball between two "
+                  "magnets; write it into the keys of the coil or the magnet, or leave it out",
+                  file.numbers.name, effect::At(entry.id).name));
+}
+
 Theta Of(const effect::EffectConfig& entry, const configuration::RigFile& file) {
   const auto& v = entry.values;
   Theta t = Zeros(0);
@@ -62,11 +70,7 @@ Theta Of(const effect::EffectConfig& entry, const configuration::RigFile& file) 
     case Id::kSensorNoise:
       break;  // nothing that moves
     default:
-      throw BadInput(
-          fmt::format("rig {}: effects: `{}` has no place in the diagnosis of a ball between two "
-                      "magnets; write "
-                      "it into the keys of the coil or the magnet, or leave it out",
-                      file.numbers.name, effect::At(entry.id).name));
+      RefuseEffect(entry, file);
   }
   return t;
 }

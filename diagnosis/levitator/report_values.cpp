@@ -58,9 +58,10 @@ FileKey KeyOf(const configuration::RigFile& rig, std::size_t i) {
 /// The same for a parameter that was fitted relative to an origin.
 FileKey KeyBeside(const configuration::RigFile& rig, const Theta& origin, std::size_t i) {
   FileKey whole = KeyOf(rig, i);
-  return {whole.key, [value = whole.value, i, from = origin[i]](double t) {
-            return value(ComposedWith(i, from, t));
-          }};
+  const auto beside = [value = whole.value, i, from = origin[i]](double t) {
+    return value(ComposedWith(i, from, t));
+  };
+  return {whole.key, beside};
 }
 
 std::string UnitOf(const FileKey& file_key, const Row& row) {

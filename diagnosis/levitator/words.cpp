@@ -1,5 +1,7 @@
 #include "diagnosis/levitator/words.hpp"
 
+#include <initializer_list>
+
 namespace levitas::levitator {
 namespace {
 
@@ -12,10 +14,8 @@ Words Row(std::string_view effect, std::string_view name, std::string_view oppos
           does,   check};
 }
 
-}  // namespace
-
-const std::vector<Words>& OwnWords() {
-  static const std::vector<Words> kRows{
+std::vector<Words> WordsOfCoils() {
+  return {
       Row("supply_voltage", "Supply voltage is too high", "Supply voltage is too low", "ratio",
           SizeForm::kOff, "The coils get another current for the same duty.",
           "Measure the supply under load; check cable and fuse."),
@@ -30,6 +30,11 @@ const std::vector<Words>& OwnWords() {
       Row("inductance_profile", "Inductance changes otherwise with the gap", "", "",
           SizeForm::kPlain, "Current depends on the ball's place otherwise than designed for.",
           "Measure the inductance at two gaps; check the core and the ball's material."),
+  };
+}
+
+std::vector<Words> WordsOfDrive() {
+  return {
       Row("voltage_drop", "Bridge drops voltage", "", "dead_band", SizeForm::kPlain,
           "Small commands do nothing: the ball wanders about its place.",
           "Measure the bridge's output at small duty; check its dead time."),
@@ -49,6 +54,11 @@ const std::vector<Words>& OwnWords() {
           "Lower coil gets less current than the upper one", "ratio", SizeForm::kOff,
           "Force is no longer the same up and down.",
           "Measure both coils' current at the same duty."),
+  };
+}
+
+std::vector<Words> WordsOfProbes() {
+  return {
       Row("current_sensor_gain", "Current probes read too much", "Current probes read too little",
           "ratio", SizeForm::kOff, "The force is thought to be another than it is.",
           "Calibrate the current probes with a meter."),
@@ -57,6 +67,11 @@ const std::vector<Words>& OwnWords() {
           "Read the probes without a current and trim their zero."),
       Row("current_sensor_bandwidth", "Current probes lag", "", "", SizeForm::kPlain,
           "The current is seen later than it flows.", "Check the filter of the probes' channels."),
+  };
+}
+
+std::vector<Words> WordsOfBall() {
+  return {
       Row("force_exponent", "Force follows the current by another power", "", "exponent",
           SizeForm::kPlain, "The loop has another gain at large currents.",
           "Measure force over current with a scale; check the cores for saturation."),
@@ -68,6 +83,19 @@ const std::vector<Words>& OwnWords() {
       Row("dry_friction", "Something rubs on the ball", "", "force", SizeForm::kPlain,
           "The ball sticks at small motion.", "Check guides and cables that touch it; clean them."),
   };
+}
+
+std::vector<Words> Joined(std::initializer_list<std::vector<Words>> tables) {
+  std::vector<Words> all;
+  for (const auto& table : tables) all.insert(all.end(), table.begin(), table.end());
+  return all;
+}
+
+}  // namespace
+
+const std::vector<Words>& OwnWords() {
+  static const std::vector<Words> kRows =
+      Joined({WordsOfCoils(), WordsOfDrive(), WordsOfProbes(), WordsOfBall()});
   return kRows;
 }
 

@@ -91,6 +91,19 @@ class Runner {
     BeforeSample(row, moment);
     moment.late_periods = late_periods_;
     moment.coil_rate = coil_rate_;
+    const AxisArray added_m = AddedReadings(moment);
+    const analysis::RecordedSample sample = SampleOf(row, arrived, added_m);
+    const AxisArray innovation_m = observer_->Step(sample, added_m);
+    for (std::size_t i = 0; i < rig_.axes; ++i) {
+      moment.innovation_m[i] = static_cast<float>(innovation_m[i]);
+    }
+    AfterPeriod(moment);
+    Drive(row.sample.command.bias_current_a, moment);
+  }
+
+ private:
+  /// What the terms add to the readings.
+  AxisArray AddedReadings(const SamplePoint& moment) {
     Contribution read;
     read.reading_m = next_reading_m_;
     for (Active& a : active_) {
@@ -98,24 +111,29 @@ class Runner {
     }
     AxisArray added_m{};
     for (std::size_t i = 0; i < rig_.axes; ++i) added_m[i] = read.reading_m[i];
+    return added_m;
+  }
+
+  /// Of a frame that was lost: what the model foretells.
+  analysis::RecordedSample SampleOf(const analysis::RecordedRow& row, bool arrived,
+                                    const AxisArray& added_m) const {
     analysis::RecordedSample sample = row.sample;
-    if (!arrived) {
-      const AxisArray predicted_m = observer_->plant().SensorOutput();
-      for (std::size_t i = 0; i < rig_.axes; ++i) {
-        sample.position_m[i] = predicted_m[i] + added_m[i];
-      }
-    }
-    const AxisArray innovation_m = observer_->Step(sample, added_m);
+    if (arrived) return sample;
+    const AxisArray predicted_m = observer_->plant().SensorOutput();
     for (std::size_t i = 0; i < rig_.axes; ++i) {
-      moment.innovation_m[i] = static_cast<float>(innovation_m[i]);
+      sample.position_m[i] = predicted_m[i] + added_m[i];
     }
-    AfterPeriod(moment);
+    return sample;
+  }
+
+  /// What the terms do to the plant over the period.
+  void Drive(double bias_current_a, SamplePoint& moment) {
     // First what moves the currents, since the forces that others look at follow from them.
     Contribution drive;
     for (Active& a : active_) {
       if (a.term.moves_coil) a.term.drive(moment, a.theta, drive);
     }
-    magnets_.Fill(row.sample.command.bias_current_a, drive, moment);
+    magnets_.Fill(bias_current_a, drive, moment);
     for (Active& a : active_) {
       if (a.term.slope) a.term.slope(moment, a.theta, moment.added);
       if (a.term.drive && !a.term.moves_coil) a.term.drive(moment, a.theta, drive);
@@ -124,7 +142,6 @@ class Runner {
     if (!active_.empty()) Apply(drive);
   }
 
- private:
   void NextStage() {
     const auto next = stage_ + 1;
     if (next == stages_.end() || since_start_ - 1 - kStartRows < next->from_row) return;
@@ -246,6 +263,54 @@ bool IsValidation(std::uint64_t cycle, std::uint32_t record, double period_s) {
   return (cycle / rows + 2 * record) % kEvery == kEvery - 1;
 }
 
+/// Steps the model along a record and notes which rows count.
+class RecordWalk {
+ public:
+  RecordWalk(const RigView& rig, const Record& record, double settling_s, Runner& runner,
+             Trajectory& run)
+      : rig_(rig),
+        record_(record),
+        settling_rows_(static_cast<std::uint64_t>(std::llround(settling_s / rig.period_s))),
+        runner_(runner),
+        run_(run) {}
+
+  void Step(const analysis::RecordedRow& row, bool arrived, bool restart) {
+    SamplePoint& moment = run_.moments.emplace_back();
+    moment.record = record_.number;
+    moment.time_s = static_cast<double>(row.cycle) * rig_.period_s;
+    if (restart) {
+      runner_.Restart(row.sample);
+      moment.restarted = true;
+      since_start_ = 0;
+    }
+    runner_.Step(row, arrived, moment);
+    moment.arrived = arrived;
+    moment.settled = since_start_++ >= settling_rows_;
+    const bool held =
+        record_.keeps_validation && IsValidation(row.cycle, record_.number, rig_.period_s);
+    moment.held = moment.settled && arrived && held;
+    moment.counts = moment.settled && arrived && !held;
+  }
+
+  /// In lost frames the rig holds its current; the shaft turns on.
+  void Bridge(const analysis::RecordedRow& last, std::uint64_t lost) {
+    analysis::RecordedRow held = last;
+    for (std::uint64_t k = 0; k < lost; ++k) {
+      ++held.cycle;
+      held.sample.angle_rad += held.sample.speed_rad_per_s * rig_.period_s;
+      Step(held, false, false);
+    }
+  }
+
+ private:
+  const RigView& rig_;
+  const Record& record_;
+  std::uint64_t settling_rows_;
+  Runner& runner_;
+  Trajectory& run_;
+  std::uint64_t since_start_{0};
+};
+
 }  // namespace
 
 Trajectory RunModel(const RigView& rig, const Record& record, const ObserverGains& gains,
@@ -255,45 +320,19 @@ Trajectory RunModel(const RigView& rig, const Record& record, const ObserverGain
   run.gains = Divided(gains, ObserverScale::Of(rig, terms, theta), rig);
   run.moments.reserve(record.rows.size());
   Runner runner(rig, run.gains, terms, theta, ChangeOf(terms, theta));
-  const auto settling_rows = static_cast<std::uint64_t>(std::llround(settling_s / rig.period_s));
-  std::uint64_t since_start = 0;
+  RecordWalk walk(rig, record, settling_s, runner, run);
   const bool repeats_are_lost = CountRepeats(record.rows, rig.axes).AreLost();
   const analysis::RecordedRow* previous = nullptr;
-  const auto step = [&](const analysis::RecordedRow& row, bool arrived, bool restart) {
-    SamplePoint& moment = run.moments.emplace_back();
-    moment.record = record.number;
-    moment.time_s = static_cast<double>(row.cycle) * rig.period_s;
-    if (restart) {
-      runner.Restart(row.sample);
-      moment.restarted = true;
-      since_start = 0;
-    }
-    runner.Step(row, arrived, moment);
-    moment.arrived = arrived;
-    moment.settled = since_start++ >= settling_rows;
-    const bool held =
-        record.keeps_validation && IsValidation(row.cycle, record.number, rig.period_s);
-    moment.held = moment.settled && arrived && held;
-    moment.counts = moment.settled && arrived && !held;
-  };
   for (const auto& row : record.rows) {
     const auto lost = previous != nullptr && row.cycle > previous->cycle
                           ? row.cycle - previous->cycle - 1
                           : kMostBridged + 1;
     const bool continues = lost <= kMostBridged && previous->levitated;
-    if (row.levitated && continues) {
-      // In lost frames the rig holds its current; the shaft turns on.
-      analysis::RecordedRow held = *previous;
-      for (std::uint64_t k = 0; k < lost; ++k) {
-        ++held.cycle;
-        held.sample.angle_rad += held.sample.speed_rad_per_s * rig.period_s;
-        step(held, false, false);
-      }
-    }
+    if (row.levitated && continues) walk.Bridge(*previous, lost);
     if (row.levitated) {
       const bool lost_one = continues && repeats_are_lost &&
                             Repeats(previous->sample.position_m, row.sample.position_m, rig.axes);
-      step(row, !lost_one, !continues);
+      walk.Step(row, !lost_one, !continues);
     }
     previous = &row;
   }

@@ -143,18 +143,20 @@ std::vector<Eigen::Index> Chosen(const Sums& sums, Eigen::Index position, int po
   return of;
 }
 
-LawOfColumn FitColumn(const RigView& rig, const Columns& columns, Eigen::Index current) {
-  LawOfColumn law;
-  const Sums sums(rig, columns, current);
-  if (sums.rows() < 500.0) return law;
+/// None, and the axes whose test signal is in the record.
+std::vector<Eigen::Index> AxesWithTestSignal(const Columns& columns) {
   std::vector<Eigen::Index> tests{kNone};
   for (Eigen::Index a = 0; a < columns.axes(); ++a) {
     if (columns.excitation_a.col(a).cwiseAbs().maxCoeff() > 0.0) tests.push_back(a);
   }
+  return tests;
+}
+
+/// The position that explains the current best; returns the test signal that goes with it.
+Eigen::Index FindPosition(const Sums& sums, const std::vector<Eigen::Index>& tests,
+                          Eigen::Index axes, Eigen::Index current, LawOfColumn& law) {
   Eigen::Index test = kNone;
-  double left_without = 1.0;
-  for (Eigen::Index p = 0; p < columns.axes(); ++p) {
-    double least = 2.0;
+  for (Eigen::Index p = 0; p < axes; ++p) {
     for (const Eigen::Index j : tests) {
       const double left = sums.Left(Chosen(sums, p, -kMostShift, j, -kMostShift));
       if (p == current) law.left_own = std::min(law.left_own, left);
@@ -163,20 +165,20 @@ LawOfColumn FitColumn(const RigView& rig, const Columns& columns, Eigen::Index c
         law.position = static_cast<std::size_t>(p);
         test = j;
       }
-      least = std::min(least, left);
     }
   }
-  for (Eigen::Index p = 0; p < columns.axes(); ++p) {
+  for (Eigen::Index p = 0; p < axes; ++p) {
     if (p == static_cast<Eigen::Index>(law.position)) continue;
     for (const Eigen::Index j : tests)
       law.left_second =
           std::min(law.left_second, sums.Left(Chosen(sums, p, -kMostShift, j, -kMostShift)));
   }
+  return test;
+}
+
+/// How late position and test signal may be taken with as little left, and their coefficients then.
+void FitShifts(const Sums& sums, Eigen::Index test, LawOfColumn& law) {
   const auto p = static_cast<Eigen::Index>(law.position);
-  left_without = sums.Left(Chosen(sums, p, -kMostShift, kNone, 0));
-  if (law.left > kIsExplained * left_without) test = kNone;
-  law.known = law.left < kLawKnown;
-  if (!law.known) return law;
   const double as_little = kAsLittle * std::max(law.left, kNothing);
   const auto left = [&](int from, int test_from) {
     return sums.Left(Chosen(sums, p, from, test, test_from));
@@ -194,6 +196,19 @@ LawOfColumn FitColumn(const RigView& rig, const Columns& columns, Eigen::Index c
     law.test = static_cast<std::size_t>(test);
     law.test_factor = solution[kMostShift + kPositionLags + 1 - law.shift];
   }
+}
+
+LawOfColumn FitColumn(const RigView& rig, const Columns& columns, Eigen::Index current) {
+  LawOfColumn law;
+  const Sums sums(rig, columns, current);
+  if (sums.rows() < 500.0) return law;
+  const std::vector<Eigen::Index> tests = AxesWithTestSignal(columns);
+  Eigen::Index test = FindPosition(sums, tests, columns.axes(), current, law);
+  const auto p = static_cast<Eigen::Index>(law.position);
+  const double left_without = sums.Left(Chosen(sums, p, -kMostShift, kNone, 0));
+  if (law.left > kIsExplained * left_without) test = kNone;
+  law.known = law.left < kLawKnown;
+  if (law.known) FitShifts(sums, test, law);
   return law;
 }
 

@@ -75,6 +75,20 @@ Drives MakeDrives(std::size_t axes, bool every_place) {
   return drives;
 }
 
+/// Into `next` what was read of row n, unless the frame is lost, and its currents, each through its
+/// place: the state of the row after it.
+void DriveStates(const Filter& filter, const Drives& drives, const Columns& columns, Eigen::Index n,
+                 bool arrived, Eigen::MatrixXd& state, Eigen::MatrixXd& next) {
+  const auto count = static_cast<Eigen::Index>(drives.column.size());
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto c = static_cast<Eigen::Index>(drives.column[static_cast<std::size_t>(i)]);
+    const auto p = static_cast<Eigen::Index>(drives.place[static_cast<std::size_t>(i)]);
+    if (arrived) next.col(i) += filter.reading.col(p) * columns.position_m(n, c);
+    next.col(count + i) += filter.current.col(p) * columns.current_a(n, c);
+  }
+  state.swap(next);
+}
+
 }  // namespace
 
 PlantFit::PlantFit(const RigView& rig, const Columns& columns, const ObserverSpeed& speed,
@@ -99,15 +113,6 @@ void PlantFit::Run(const RigView& rig, const Columns& columns, const ObserverSpe
   Eigen::MatrixXd next = state;
   Eigen::MatrixXd error(axes, 2 * count);
   std::size_t since = 0;
-  const auto drive = [&](Eigen::Index n, bool arrived) {
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const auto c = static_cast<Eigen::Index>(drives.column[static_cast<std::size_t>(i)]);
-      const auto p = static_cast<Eigen::Index>(drives.place[static_cast<std::size_t>(i)]);
-      if (arrived) next.col(i) += filter.reading.col(p) * columns.position_m(n, c);
-      next.col(count + i) += filter.current.col(p) * columns.current_a(n, c);
-    }
-    state.swap(next);
-  };
   for (Eigen::Index n = 0; n < rows; ++n) {
     const auto row = static_cast<std::size_t>(n);
     const std::uint64_t missing = columns.missing[row];
@@ -117,7 +122,7 @@ void PlantFit::Run(const RigView& rig, const Columns& columns, const ObserverSpe
     } else {
       for (std::uint64_t k = 0; k < missing; ++k) {
         next.noalias() = filter.forward * state;
-        drive(n - 1, false);
+        DriveStates(filter, drives, columns, n - 1, false, state, next);
       }
     }
     const bool arrived = columns.repeated[row] == 0;
@@ -130,7 +135,7 @@ void PlantFit::Run(const RigView& rig, const Columns& columns, const ObserverSpe
       of_current_[at].row(n) = error.col(count + i);
     }
     next.noalias() = (arrived ? filter.closed : filter.forward) * state;
-    drive(n, arrived);
+    DriveStates(filter, drives, columns, n, arrived, state, next);
     counts_[row] = arrived && ++since > filter.settling_rows ? 1 : 0;
   }
 }

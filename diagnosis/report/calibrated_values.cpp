@@ -14,6 +14,18 @@ namespace {
 
 constexpr double kProbe = 1e-3;  ///< does a key depend on it?
 
+/// The key of a harmonic's size, and its phase.
+void TakeKeyAndPhase(const EntryValues& values, CalibratedValue& v) {
+  for (const EntryValue& value : values) {
+    const bool size = value.key != "order" && value.key != "z_mm" && value.key != "frequency_hz";
+    if (value.key == kPhaseKey) {
+      v.phase_rad = value.number * UnitOfKey(kPhaseKey).si;
+    } else if (size) {
+      v.key = value.key;
+    }
+  }
+}
+
 /// Standard deviations and tolerances of the terms at one place.
 class Calibrated {
  public:
@@ -109,14 +121,7 @@ class Calibrated {
     CalibratedValue v;
     v.effect = at_.effect_name();
     v.place = at_.location.name;
-    for (const EntryValue& value : values) {
-      const bool size = value.key != "order" && value.key != "z_mm" && value.key != "frequency_hz";
-      if (value.key == kPhaseKey) {
-        v.phase_rad = value.number * UnitOfKey(kPhaseKey).si;
-      } else if (size) {
-        v.key = value.key;
-      }
-    }
+    TakeKeyAndPhase(values, v);
     const KeyUnit unit = UnitOfKey(v.key);
     v.unit = unit.symbol;
     const std::complex<double> found{at_.At("cosine"), at_.At("sine")};

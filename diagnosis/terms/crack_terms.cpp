@@ -58,28 +58,28 @@ Term Crack(const RigView& rig, double z_m, double direction_rad) {
   const double gx = rig.model->gravity_direction_x();
   const double gy = rig.model->gravity_direction_y();
   const double degrees = std::fmod(direction_rad, kTurn) * 360.0 / kTurn;
-  Term term = MakeTerm(
-      {Id::kBreathingCrack, AtPlane(z_m).Named(fmt::format("direction {:.1f} deg", degrees)),
-       "softening", "1"},
-      0.0, 0.05,
-      [=, modes = rig.modes, period_s = rig.period_s](const SamplePoint& m, double theta,
-                                                      Contribution& add) {
-        const double angle =
-            m.angle_rad + 0.5 * period_s * static_cast<double>(m.speed_rad_per_s) + direction_rad;
-        const double ex = std::cos(angle);
-        const double ey = std::sin(angle);
-        double across = 0.0;
-        for (std::size_t i = 2; i < modes; ++i) {
-          across += curvature[i] *
-                    (ex * static_cast<double>(m.q[i]) + ey * static_cast<double>(m.q[modes + i]));
-        }
-        const double open = 0.5 * (1.0 + ex * gx + ey * gy);
-        const double moment = theta * size * open * across;
-        for (std::size_t i = 2; i < modes; ++i) {
-          add.Modal(i, curvature[i] * moment * ex);
-          add.Modal(modes + i, curvature[i] * moment * ey);
-        }
-      });
+  const auto soften = [=, modes = rig.modes, period_s = rig.period_s](
+                          const SamplePoint& m, double theta, Contribution& add) {
+    const double angle =
+        m.angle_rad + 0.5 * period_s * static_cast<double>(m.speed_rad_per_s) + direction_rad;
+    const double ex = std::cos(angle);
+    const double ey = std::sin(angle);
+    double across = 0.0;
+    for (std::size_t i = 2; i < modes; ++i) {
+      across += curvature[i] *
+                (ex * static_cast<double>(m.q[i]) + ey * static_cast<double>(m.q[modes + i]));
+    }
+    const double open = 0.5 * (1.0 + ex * gx + ey * gy);
+    const double moment = theta * size * open * across;
+    for (std::size_t i = 2; i < modes; ++i) {
+      add.Modal(i, curvature[i] * moment * ex);
+      add.Modal(modes + i, curvature[i] * moment * ey);
+    }
+  };
+  Term term =
+      MakeTerm({Id::kBreathingCrack,
+                AtPlane(z_m).Named(fmt::format("direction {:.1f} deg", degrees)), "softening", "1"},
+               0.0, 0.05, soften);
   term.positive = true;
   // Half the distance of the planes, and of directions that count from one whole turn on.
   term.family = {{z_m, direction_rad}, {0.1, 0.04}, {}, [&rig](const Family::Shape& other) {

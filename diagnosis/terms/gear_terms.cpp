@@ -177,18 +177,18 @@ void AddRunout(const Teeth& t, const Tolerances& tolerances, bool driven,
   }
 }
 
-/// A misaligned coupling of the wheel's shaft, (G17) and (G18): pushes at twice the shaft's turns,
-/// forward or backward, and turns the wheel unevenly once or twice a turn.
-void AddCoupling(const Teeth& t, bool driven, std::vector<Term>& terms) {
+Location CouplingPlace(const Teeth& t, bool driven, const char* what, int order) {
+  Location at = AtWheel(t.mesh->name, t.at, driven).Named(fmt::format("{}, order {}", what, order));
+  at.order = order;
+  return at;
+}
+
+/// A misaligned coupling of the wheel's shaft pushes at twice the shaft's turns, forward or
+/// backward, (G17).
+void AddCouplingForce(const Teeth& t, bool driven, std::vector<Term>& terms) {
   const WheelView& wheel = driven ? t.mesh->driven : t.mesh->driving;
-  const auto place = [&](const char* what, int order) {
-    Location at =
-        AtWheel(t.mesh->name, t.at, driven).Named(fmt::format("{}, order {}", what, order));
-    at.order = order;
-    return at;
-  };
   for (const int order : {2, -2}) {
-    Location at = place("force", order);
+    Location at = CouplingPlace(t, driven, "force", order);
     at.z_m = wheel.z_m;
     for (int part = 0; part < 2; ++part) {
       terms.push_back(MakeTerm({Id::kMisalignment, at, PartName(part), "N"}, 0.0, 2.0,
@@ -205,12 +205,17 @@ void AddCoupling(const Teeth& t, bool driven, std::vector<Term>& terms) {
                                }));
     }
   }
+}
+
+/// A misaligned coupling turns the wheel unevenly once or twice a turn, (G18).
+void AddCouplingRotation(const Teeth& t, bool driven, std::vector<Term>& terms) {
+  const WheelView& wheel = driven ? t.mesh->driven : t.mesh->driving;
   if (wheel.base_radius_m == 0.0) return;
   for (const int order : {1, 2}) {
     for (int part = 0; part < 2; ++part) {
       terms.push_back(MakeTerm(
-          {Id::kMisalignment, place("rotation", order), PartName(part), "rad"}, 0.0, 2e-4,
-          [=, w = &wheel](const SamplePoint& m, double theta, Contribution& add) {
+          {Id::kMisalignment, CouplingPlace(t, driven, "rotation", order), PartName(part), "rad"},
+          0.0, 2e-4, [=, w = &wheel](const SamplePoint& m, double theta, Contribution& add) {
             const double turns = order * w->ratio;
             const Complex line = theta * w->base_radius_m * Part(part) *
                                  std::polar(1.0, turns * MidAngle(m, t.period_s));
@@ -221,6 +226,11 @@ void AddCoupling(const Teeth& t, bool driven, std::vector<Term>& terms) {
           }));
     }
   }
+}
+
+void AddCoupling(const Teeth& t, bool driven, std::vector<Term>& terms) {
+  AddCouplingForce(t, driven, terms);
+  AddCouplingRotation(t, driven, terms);
 }
 
 /// How much of a tooth's stiffness counts: one pitch to either side of it, as neighbours share.
