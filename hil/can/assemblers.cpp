@@ -16,6 +16,17 @@ double WrapAngle(double angle_rad) noexcept {
   return wrapped < kTurn ? wrapped : 0.0;
 }
 
+CurrentFrame FrameOf(const Values& values, std::uint64_t cycle, std::size_t axes) noexcept {
+  return {.cycle = cycle,
+          .axes = static_cast<std::uint32_t>(axes),
+          .control_current_a = values.control_current_a,
+          .bias_current_a = values.amplifiers_enabled ? values.bias_current_a : 0.0,
+          .speed_set_point_rad_per_s = values.speed_set_point_rad_per_s,
+          .acceleration_limit_rad_per_s2 = values.acceleration_limit_rad_per_s2,
+          .amplifiers_enabled = values.amplifiers_enabled,
+          .drive_enabled = values.drive_enabled};
+}
+
 }  // namespace
 
 Inbox::Inbox(const Layout& layout, Sender sender) {
@@ -183,14 +194,7 @@ Outcome CommandAssembler::Judge(const WireFrame& wire, std::uint64_t own_cycle,
   parts_ = 0;
   if (last_cycle_ && cycle > *last_cycle_ + 1) lost_ += cycle - *last_cycle_ - 1;
   last_cycle_ = cycle;
-  frame = {.cycle = cycle,
-           .axes = static_cast<std::uint32_t>(axes_),
-           .control_current_a = values_.control_current_a,
-           .bias_current_a = values_.amplifiers_enabled ? values_.bias_current_a : 0.0,
-           .speed_set_point_rad_per_s = values_.speed_set_point_rad_per_s,
-           .acceleration_limit_rad_per_s2 = values_.acceleration_limit_rad_per_s2,
-           .amplifiers_enabled = values_.amplifiers_enabled,
-           .drive_enabled = values_.drive_enabled};
+  frame = FrameOf(values_, cycle, axes_);
   return values_.goodbye ? Outcome::kGoodbye : Outcome::kFrame;
 }
 

@@ -43,6 +43,32 @@ double Number(Field field, std::uint8_t axis, const Values& values) noexcept {
   }
 }
 
+void SetNumber(Field field, std::uint8_t axis, double number, Values& values) noexcept {
+  switch (field) {
+    case Field::kPosition:
+      values.position_m[axis] = number;
+      break;
+    case Field::kCurrent:
+      values.control_current_a[axis] = number;
+      break;
+    case Field::kSpeed:
+      values.speed_rad_per_s = number;
+      break;
+    case Field::kAngle:
+      values.angle_rad = number;
+      break;
+    case Field::kBias:
+      values.bias_current_a = number;
+      break;
+    case Field::kSpeedSetPoint:
+      values.speed_set_point_rad_per_s = number;
+      break;
+    default:
+      values.acceleration_limit_rad_per_s2 = number;
+      break;
+  }
+}
+
 void SetStatus(std::uint32_t bit, std::uint64_t raw, Values& values) noexcept {
   values.rig_status = raw != 0 ? values.rig_status | bit : values.rig_status & ~bit;
 }
@@ -131,23 +157,11 @@ void MessageCodec::Take(const Place& place, std::uint64_t raw, Values& values) n
                             ? std::numeric_limits<double>::quiet_NaN()
                             : static_cast<double>(whole) * place.factor;
   switch (place.field) {
-    case Field::kPosition:
-      values.position_m[place.axis] = number;
-      break;
-    case Field::kCurrent:
-      values.control_current_a[place.axis] = number;
-      break;
     case Field::kCycle:
       values.cycle_low = static_cast<std::uint32_t>(raw);
       break;
     case Field::kSession:
       values.session_low = static_cast<std::uint32_t>(raw);
-      break;
-    case Field::kSpeed:
-      values.speed_rad_per_s = number;
-      break;
-    case Field::kAngle:
-      values.angle_rad = number;
       break;
     case Field::kEmergencyStop:
       SetStatus(kRigEmergencyStop, raw, values);
@@ -170,14 +184,8 @@ void MessageCodec::Take(const Place& place, std::uint64_t raw, Values& values) n
     case Field::kGoodbye:
       values.goodbye = raw != 0;
       break;
-    case Field::kBias:
-      values.bias_current_a = number;
-      break;
-    case Field::kSpeedSetPoint:
-      values.speed_set_point_rad_per_s = number;
-      break;
-    case Field::kAccelerationLimit:
-      values.acceleration_limit_rad_per_s2 = number;
+    default:
+      SetNumber(place.field, place.axis, number, values);
       break;
   }
 }

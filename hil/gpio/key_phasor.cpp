@@ -17,6 +17,12 @@ double Wrapped(double angle_rad) noexcept {
   const double rest_rad = std::fmod(angle_rad, kTurn);
   return rest_rad < 0.0 ? std::min(rest_rad + kTurn, std::nextafter(kTurn, 0.0)) : rest_rad;
 }
+
+/// The rotor `time_s` later at the same speed.
+SpeedReading TurnedOn(SpeedReading reading, double time_s) noexcept {
+  reading.angle_rad = Wrapped(reading.angle_rad + reading.speed_rad_per_s * time_s);
+  return reading;
+}
 }  // namespace
 
 KeyPhasor::KeyPhasor(const KeyPhasorConfig& config) noexcept
@@ -181,9 +187,7 @@ SpeedReading KeyPhasor::At(std::int64_t time_ns) noexcept {
     }
     // An overdue mark is a missing pulse, not a rotor that has slowed down.
     if (elapsed_s > next.to_s) {
-      SpeedReading reading = Predicted(next.to_s);
-      reading.angle_rad =
-          Wrapped(reading.angle_rad + reading.speed_rad_per_s * (elapsed_s - next.to_s));
+      SpeedReading reading = TurnedOn(Predicted(next.to_s), elapsed_s - next.to_s);
       reading.state = state_;
       return reading;
     }

@@ -114,6 +114,43 @@ void Change(plant::PlantParameters& rig, const Unknown& unknown, double by) {
   }
 }
 
+/// What the unknowns change beside the rig's own numbers.
+struct MatrixChanges {
+  Eigen::ArrayXd ki, ks, gain;  ///< per axis, of the healthy rig's
+  double delay_samples{};       ///< on top of the rig's own
+  double mass{1.0};             ///< of the healthy rotor's
+};
+
+MatrixChanges ApplyUnknowns(const std::vector<Unknown>& unknowns, const Eigen::VectorXd& place,
+                            Index axes, plant::PlantParameters& rig) {
+  const Eigen::ArrayXd healthy = Eigen::ArrayXd::Ones(axes);
+  MatrixChanges changes{healthy, healthy, healthy};
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+    const double by = place[static_cast<Index>(i)];
+    const auto axis = static_cast<Index>(unknowns[i].index);
+    Change(rig, unknowns[i], by);
+    if (unknowns[i].kind == Kind::kCurrentGain) changes.ki[axis] += by;
+    if (unknowns[i].kind == Kind::kStiffness) changes.ks[axis] += by;
+    if (unknowns[i].kind == Kind::kSensorGain) changes.gain[axis] += by;
+    if (unknowns[i].kind == Kind::kDelay) changes.delay_samples = by;
+    if (unknowns[i].kind == Kind::kMass) changes.mass += by;
+  }
+  return changes;
+}
+
+/// How the magnets push the rotor and see it.
+void CoupleMagnets(const PlantModel& model, Index axes, RigMatrices& made) {
+  const Index states = made.a0.rows();
+  made.push.resize(states, axes);
+  made.seen.resize(axes, states);
+  for (Index axis = 0; axis < axes; ++axis) {
+    made.push.col(axis) =
+        plant::Reaction(model, SizeOf(axis / 2), static_cast<int>(axis % 2), states);
+    made.seen.row(axis) =
+        plant::SeenByMagnet(model, SizeOf(axis / 2), static_cast<int>(axis % 2), states);
+  }
+}
+
 }  // namespace
 
 std::string NameOf(const Unknown& unknown, const RigNumbers& rig) {
@@ -237,49 +274,29 @@ double BalanceRig::centre_z_m() const {
 
 RigMatrices BalanceRig::At(const Eigen::VectorXd& place) const {
   plant::PlantParameters rig = nominal_;
-  Eigen::ArrayXd ki = Eigen::ArrayXd::Ones(axes_);
-  Eigen::ArrayXd ks = ki;
-  Eigen::ArrayXd gain = ki;
-  double delay_samples = 0.0;
-  double mass = 1.0;
-  for (std::size_t i = 0; i < unknowns_.size(); ++i) {
-    const double by = place[static_cast<Index>(i)];
-    const auto axis = static_cast<Index>(unknowns_[i].index);
-    Change(rig, unknowns_[i], by);
-    if (unknowns_[i].kind == Kind::kCurrentGain) ki[axis] += by;
-    if (unknowns_[i].kind == Kind::kStiffness) ks[axis] += by;
-    if (unknowns_[i].kind == Kind::kSensorGain) gain[axis] += by;
-    if (unknowns_[i].kind == Kind::kDelay) delay_samples = by;
-    if (unknowns_[i].kind == Kind::kMass) mass += by;
-  }
+  const MatrixChanges changes = ApplyUnknowns(unknowns_, place, axes_, rig);
   const Index rigid_modes = rig.modes.rigid_modes;
   const PlantModel model(std::move(rig));
   std::vector<plant::Slopes> slopes;
   for (Index b = 0; 2 * b < axes_; ++b) {
     slopes.push_back(plant::SlopesAt(model, SizeOf(b), point_));
-    slopes.back().current = slopes.back().current * ki.segment<2>(2 * b).matrix().asDiagonal();
+    slopes.back().current =
+        slopes.back().current * changes.ki.segment<2>(2 * b).matrix().asDiagonal();
     slopes.back().displacement =
-        slopes.back().displacement * ks.segment<2>(2 * b).matrix().asDiagonal();
+        slopes.back().displacement * changes.ks.segment<2>(2 * b).matrix().asDiagonal();
   }
   plant::LinearModel linear = plant::LineariseWith(model, 0.0, slopes);
   RigMatrices made;
   made.a1 = plant::LineariseWith(model, 1.0, slopes).a - linear.a;
   made.a0 = std::move(linear.a);
   made.b = std::move(linear.b);
-  made.c = gain.matrix().asDiagonal() * linear.c;
-  made.delay_s = (model.delay_samples() + delay_samples) * period_s_;
+  made.c = changes.gain.matrix().asDiagonal() * linear.c;
+  made.delay_s = (model.delay_samples() + changes.delay_samples) * period_s_;
   const Index states = made.a0.rows();
-  made.push.resize(states, axes_);
-  made.seen.resize(axes_, states);
   made.coil_current = static_cast<Index>(model.layout().coil_current);
-  for (Index axis = 0; axis < axes_; ++axis) {
-    made.push.col(axis) =
-        plant::Reaction(model, SizeOf(axis / 2), static_cast<int>(axis % 2), states);
-    made.seen.row(axis) =
-        plant::SeenByMagnet(model, SizeOf(axis / 2), static_cast<int>(axis % 2), states);
-  }
+  CoupleMagnets(model, axes_, made);
   Eigen::MatrixXd shapes = shapes_;
-  shapes.topRows(rigid_modes) /= std::sqrt(mass);
+  shapes.topRows(rigid_modes) /= std::sqrt(changes.mass);
   made.unbalance = Eigen::MatrixXcd::Zero(states, planes());
   const auto& at = model.layout();
   made.unbalance.middleRows(static_cast<Index>(at.v_x), shapes.rows()) = shapes;

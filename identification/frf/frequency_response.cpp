@@ -236,6 +236,29 @@ Moments MomentsOf(const session::Recording& record, const Campaign& campaign, do
   return moments;
 }
 
+/// Of the lines that are used: what the variances of the response follow from.
+struct LineNoise {
+  std::vector<std::size_t> line;
+  std::vector<Eigen::MatrixXd> power, own;
+  std::vector<Eigen::MatrixXcd> inverse;  ///< of the currents' response
+};
+
+void FillVariances(const std::vector<Spectra>& all, const LineNoise& noise,
+                   FrequencyResponse& response) {
+  const Index axes = response.axes();
+  const auto smooth = Smoothed(noise.power, all.front().neighbours);
+  const auto smooth_own = Smoothed(noise.own, all.front().neighbours);
+  for (std::size_t k = 0; k < noise.line.size(); ++k) {
+    response.noise.push_back(PerExcitation(all, noise.line[k], smooth[k], axes));
+    response.variance.push_back(response.noise[k] * noise.inverse[k].cwiseAbs2());
+    Eigen::VectorXd scatter = PerExcitation(all, noise.line[k], smooth_own[k], axes).row(0);
+    for (Index i = 0; i < axes; ++i) {
+      scatter[i] *= PeakShare(response.sensitivity, k, all.front().neighbours, i);
+    }
+    response.own_variance.push_back(std::move(scatter));
+  }
+}
+
 }  // namespace
 
 FrequencyResponse EstimateResponse(const session::Recording& record, const Campaign& campaign,
@@ -254,10 +277,7 @@ FrequencyResponse EstimateResponse(const session::Recording& record, const Campa
     all.push_back(SpectraOf(record, e, turns ? options.orders : 0));
     response.periods = std::min(response.periods, e.periods);
   }
-  std::vector<Eigen::MatrixXd> power;
-  std::vector<Eigen::MatrixXd> own;
-  std::vector<Eigen::MatrixXcd> inverse;
-  std::vector<std::size_t> lines;
+  LineNoise noise;
   const Index axes = response.axes();
   for (const std::size_t line : ExcitedLines(all, options.highest_hz)) {
     const double f = all.front().frequency_hz[line];
@@ -266,29 +286,19 @@ FrequencyResponse EstimateResponse(const session::Recording& record, const Campa
       continue;
     }
     const LineMeans means = Means(all, line, axes);
-    lines.push_back(line);
-    inverse.push_back(means.q.inverse());
+    noise.line.push_back(line);
+    noise.inverse.push_back(means.q.inverse());
     response.frequency_hz.push_back(f);
-    response.plant.push_back(means.g * inverse.back());
+    response.plant.push_back(means.g * noise.inverse.back());
     response.currents.push_back(means.q);
     response.sensitivity.push_back(
         reading ? Eigen::MatrixXcd(Eigen::MatrixXcd::Identity(axes, axes) + means.g) : means.q);
     response.coherence.push_back(CoherenceOf(all, line, axes));
-    power.push_back(NoisePower(all, line, response.plant.back()));
-    own.push_back(OwnScatter(all, line));
+    noise.power.push_back(NoisePower(all, line, response.plant.back()));
+    noise.own.push_back(OwnScatter(all, line));
   }
-  if (power.empty()) throw BadInput(record.name + ": no line of the spectrum is excited");
-  const auto smooth = Smoothed(power, all.front().neighbours);
-  const auto smooth_own = Smoothed(own, all.front().neighbours);
-  for (std::size_t k = 0; k < lines.size(); ++k) {
-    response.noise.push_back(PerExcitation(all, lines[k], smooth[k], axes));
-    response.variance.push_back(response.noise[k] * inverse[k].cwiseAbs2());
-    Eigen::VectorXd scatter = PerExcitation(all, lines[k], smooth_own[k], axes).row(0);
-    for (Index i = 0; i < axes; ++i) {
-      scatter[i] *= PeakShare(response.sensitivity, k, all.front().neighbours, i);
-    }
-    response.own_variance.push_back(std::move(scatter));
-  }
+  if (noise.power.empty()) throw BadInput(record.name + ": no line of the spectrum is excited");
+  FillVariances(all, noise, response);
   response.moments = MomentsOf(record, campaign, options.amplifier_hz);
   FindExtremes(record, campaign, response);
   return response;

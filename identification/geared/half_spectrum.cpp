@@ -80,6 +80,26 @@ struct Amplitudes {
   Eigen::VectorXd sigma;   ///< of each column's amplitudes
 };
 
+void FillBasis(const std::vector<HalfOrder>& orders, double angle_rad, Eigen::VectorXd& basis) {
+  basis[0] = 1.0;
+  for (std::size_t k = 0; k < orders.size(); ++k) {
+    const double phase = orders[k].order * angle_rad;
+    basis[static_cast<Eigen::Index>(2 * k + 1)] = std::cos(phase);
+    basis[static_cast<Eigen::Index>(2 * k + 2)] = -std::sin(phase);
+  }
+}
+
+/// `rows`: instants of the stretch with a torsion.
+void RefuseSparseTorsion(const session::Recording& record, const SteadyStretch& stretch,
+                         double rows) {
+  if (rows < 0.5 * static_cast<double>(stretch.end - stretch.begin)) {
+    throw BadInput(fmt::format(
+        "{}: of the stretch at {:.2f} Hz the record holds the torsion of {:.0f} of {} instants; at "
+        "least half are needed",
+        record.name, stretch.speed_rad_per_s / kTwoPi, rows, stretch.end - stretch.begin));
+  }
+}
+
 Amplitudes Fit(const session::Recording& record, const std::vector<double>& angle,
                const SteadyStretch& stretch, const std::vector<HalfOrder>& orders,
                const session::TorsionRecording& torsion) {
@@ -95,12 +115,7 @@ Amplitudes Fit(const session::Recording& record, const std::vector<double>& angl
     const auto row = torsion.RowOf(torsion.rig_session.front(), record.cycle[n]);
     if (!row) continue;
     rows += 1.0;
-    basis[0] = 1.0;
-    for (std::size_t k = 0; k < orders.size(); ++k) {
-      const double phase = orders[k].order * angle[n];
-      basis[static_cast<Eigen::Index>(2 * k + 1)] = std::cos(phase);
-      basis[static_cast<Eigen::Index>(2 * k + 2)] = -std::sin(phase);
-    }
+    FillBasis(orders, angle[n], basis);
     for (std::size_t c = 0; c < torsion.couplings.size(); ++c) {
       values[static_cast<Eigen::Index>(2 * c)] = torsion.torque_n_m[c][*row];
       values[static_cast<Eigen::Index>(2 * c + 1)] = torsion.twist_rad[c][*row];
@@ -109,12 +124,7 @@ Amplitudes Fit(const session::Recording& record, const std::vector<double>& angl
     right.noalias() += basis * values;
     power += values.cwiseAbs2().transpose();
   }
-  if (rows < 0.5 * static_cast<double>(stretch.end - stretch.begin)) {
-    throw BadInput(fmt::format(
-        "{}: of the stretch at {:.2f} Hz the record holds the torsion of {:.0f} of {} instants; at "
-        "least half are needed",
-        record.name, stretch.speed_rad_per_s / kTwoPi, rows, stretch.end - stretch.begin));
-  }
+  RefuseSparseTorsion(record, stretch, rows);
   const Eigen::MatrixXd solved = normal.ldlt().solve(right);
   Amplitudes found{Eigen::MatrixXcd(orders.size(), columns), Eigen::VectorXd(columns)};
   for (std::size_t k = 0; k < orders.size(); ++k) {
@@ -187,6 +197,24 @@ void FindUnexplained(const std::vector<TorsionLine>& lines, std::size_t index,
   if (power > 0.0) coupling.unexplained_share = std::max(left, 0.0) / power;
 }
 
+void RefuseRestart(const session::Recording& record, const session::TorsionRecording& torsion) {
+  if (torsion.rig_session.front() != torsion.rig_session.back()) {
+    throw BadInput(record.name +
+                   ": the rig began anew within the record and counted its cycles from 0 again, so "
+                   "that torsion cannot be told of which stretch it is; record without a restart");
+  }
+}
+
+/// The mesh force of each line.
+std::vector<Complex> ForcesOn(const std::vector<GearedLine>& lines, const GearedParameters& found) {
+  std::vector<Complex> force;
+  const std::vector<LineGains> gains = GainsOn(lines, found.corrected, found);
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    force.push_back(MeshForce(lines[k], found.corrected, found, gains[k]));
+  }
+  return force;
+}
+
 }  // namespace
 
 HalfSpectrum HalfSpectrumOf(const session::Recording& record,
@@ -196,11 +224,7 @@ HalfSpectrum HalfSpectrumOf(const session::Recording& record,
   HalfSpectrum half;
   if (torsion.rows() == 0 || !found.corrected.torsion) return half;
   const gear::GearPair& pair = rig.plant.gears.front();
-  if (torsion.rig_session.front() != torsion.rig_session.back()) {
-    throw BadInput(record.name +
-                   ": the rig began anew within the record and counted its cycles from 0 again, so "
-                   "that torsion cannot be told of which stretch it is; record without a restart");
-  }
+  RefuseRestart(record, torsion);
   const std::vector<Coupling> couplings =
       CouplingsOf(plant::PlantModel(rig.plant), torsion.couplings, record.name);
   for (std::size_t c = 0; c < couplings.size(); ++c) {
@@ -208,12 +232,8 @@ HalfSpectrum HalfSpectrumOf(const session::Recording& record,
                               .known_n_m_per_rad = couplings[c].stiffness_n_m_per_rad,
                               .unexplained_share = {}});
   }
-  std::vector<Complex> force;
   const std::vector<GearedLine> seen = LinesOffNodes(lines, found.corrected);
-  const std::vector<LineGains> gains = GainsOn(seen, found.corrected, found);
-  for (std::size_t k = 0; k < seen.size(); ++k) {
-    force.push_back(MeshForce(seen[k], found.corrected, found, gains[k]));
-  }
+  const std::vector<Complex> force = ForcesOn(seen, found);
   const auto orders = HalfOrders(pair, harmonics);
   const std::vector<double> angle = UnwrappedAngle(record);
   for (const SteadyStretch& stretch : SteadyStretches(record, angle, pair)) {

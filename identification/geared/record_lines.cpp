@@ -140,6 +140,16 @@ Complex Drive(double w, double corner_hz, double delay_s, double period_s) {
   return hold * std::polar(1.0, -w * delay_s - half) * Lag(w / kTwoPi, corner_hz);
 }
 
+void RefuseTooFewStretches(const session::Recording& record, std::size_t stretches,
+                           const std::string& rig) {
+  if (stretches < 2) {
+    throw BadInput(fmt::format(
+        "{}: {} stretch(es) of {:.1f} s at one speed, levitated and turning; at least two of "
+        "different speed are needed (amb run --rig {})",
+        record.name, stretches, kShortestStretchS, rig));
+  }
+}
+
 }  // namespace
 
 std::vector<GearedLine> LinesOfRecord(const session::Recording& record,
@@ -150,12 +160,7 @@ std::vector<GearedLine> LinesOfRecord(const session::Recording& record,
   const Chain gear = ChainOf(rig.plant, pair.driven.shaft);
   const std::vector<double> angle = UnwrappedAngle(record);
   const auto stretches = SteadyStretches(record, angle, pair);
-  if (stretches.size() < 2) {
-    throw BadInput(fmt::format(
-        "{}: {} stretch(es) of {:.1f} s at one speed, levitated and turning; at least two of "
-        "different speed are needed (amb run --rig {})",
-        record.name, stretches.size(), kShortestStretchS, rig.numbers.name));
-  }
+  RefuseTooFewStretches(record, stretches.size(), rig.numbers.name);
   const double delay_s = rig.plant.delay_samples * record.period_s();
   std::vector<GearedLine> lines;
   for (const SteadyStretch& stretch : stretches) {

@@ -20,6 +20,19 @@ constexpr std::size_t kTogether = 8;
 /// Fewer lines than this are not worth a thread.
 constexpr std::size_t kPerThread = 32;
 
+/// What a line adds to twice the cost, and what its rows are weighted with.
+struct RobustPart {
+  double twice_cost{};
+  double weight{};
+};
+
+RobustPart SoftL1(double square, Index rows) {
+  const auto bend = static_cast<double>(rows);
+  const double root = std::sqrt(1.0 + square / bend);
+  // rho' = 1/root weighs the square.
+  return {2.0 * bend * (root - 1.0), 1.0 / std::sqrt(root)};
+}
+
 }  // namespace
 
 NormalCost::NormalCost(const ModalStart& start, Eigen::VectorXd base, std::vector<Index> free,
@@ -71,13 +84,11 @@ void NormalCost::Add(const Physical& rig, std::size_t from, std::size_t to, bool
     if (!robust_) {
       sum.twice_cost += square;
     } else {
-      const auto bend = static_cast<double>(rows);
-      const double root = std::sqrt(1.0 + square / bend);
-      sum.twice_cost += 2.0 * bend * (root - 1.0);
+      const RobustPart part = SoftL1(square, rows);
+      sum.twice_cost += part.twice_cost;
       if (derive) {
-        const double weight = 1.0 / std::sqrt(root);  // rho' = 1/root weighs the square
-        r *= weight;
-        jacobian.middleRows(filled, rows) *= weight;
+        r *= part.weight;
+        jacobian.middleRows(filled, rows) *= part.weight;
       }
     }
     if (!derive) continue;

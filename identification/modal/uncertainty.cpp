@@ -58,38 +58,47 @@ Unidentifiable DirectionOf(const ModalStart& start, const std::vector<Index>& fr
   return direction;
 }
 
-}  // namespace
-
-Uncertainty Assess(const ModalStart& start, const ModalFit& fit) {
+std::vector<Index> FittedUnknowns(const ModalFit& fit) {
   std::vector<Index> free;
   for (std::size_t k = 0; k < fit.fitted.size(); ++k) {
     if (fit.fitted[k]) free.push_back(static_cast<Index>(k));
   }
-  const Eigen::VectorXd prior = start.prior(free);
-  // In units of the priors: information of the prior is the identity.
-  const Eigen::MatrixXd data =
-      prior.asDiagonal() * fit.information(free, free) * prior.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(data);
-  const Eigen::VectorXd spread = (solver.eigenvalues().array().max(0.0) + 1.0).inverse();
-  const Eigen::MatrixXd noise =
-      solver.eigenvectors() * spread.asDiagonal() * solver.eigenvectors().transpose();
-  // Misfit that neighbouring lines share counts as they show it (Huber 1967): the larger of both.
-  const Eigen::MatrixXd seen = noise *
-                               (prior.asDiagonal() * fit.scatter(free, free) * prior.asDiagonal() +
-                                Eigen::MatrixXd::Identity(prior.size(), prior.size())) *
-                               noise;
-  const double scale = std::max(1.0, fit.reduced_chi_square);
-  Uncertainty result{Eigen::VectorXd::Zero(start.vector.size()), {}, {}};
-  const auto spread_of = [&](const Eigen::VectorXd& direction) {
+  return free;
+}
+
+/// Covariances of the free unknowns in units of their priors.
+struct Covariance {
+  double scale{1.0};      ///< of `noise`: what the lines scatter beyond their own noise
+  Eigen::MatrixXd noise;  ///< from the lines' own noise
+  Eigen::MatrixXd seen;   ///< from the misfit that neighbouring lines share
+
+  /// Standard deviation. Shared misfit counts as it is shown (Huber 1967): the larger of both.
+  double Deviation(const Eigen::VectorXd& direction) const {
     return std::sqrt(
         std::max(scale * direction.dot(noise * direction), direction.dot(seen * direction)));
-  };
-  const auto count = static_cast<Index>(free.size());
-  Eigen::VectorXd product = Eigen::VectorXd::Zero(count);
-  for (Index k = 0; k < count; ++k) {
-    const Eigen::VectorXd unit = prior[k] * Eigen::VectorXd::Unit(count, k);
-    result.deviation[free[static_cast<std::size_t>(k)]] = spread_of(unit);
   }
+};
+
+using Information = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
+
+Covariance CovarianceOf(const Information& solver, const ModalFit& fit,
+                        const std::vector<Index>& free, const Eigen::VectorXd& prior) {
+  const Eigen::VectorXd spread = (solver.eigenvalues().array().max(0.0) + 1.0).inverse();
+  Covariance covariance;
+  covariance.noise =
+      solver.eigenvectors() * spread.asDiagonal() * solver.eigenvectors().transpose();
+  covariance.seen = covariance.noise *
+                    (prior.asDiagonal() * fit.scatter(free, free) * prior.asDiagonal() +
+                     Eigen::MatrixXd::Identity(prior.size(), prior.size())) *
+                    covariance.noise;
+  covariance.scale = std::max(1.0, fit.reduced_chi_square);
+  return covariance;
+}
+
+/// Uncertainty::products.
+Eigen::VectorXd ProductDeviations(const ModalLayout& at, const std::vector<Index>& free,
+                                  const Eigen::VectorXd& prior, const Covariance& covariance) {
+  Eigen::VectorXd product = Eigen::VectorXd::Zero(prior.size());
   const auto sum_of = [&](std::initializer_list<std::pair<Index, double>> terms) {
     product.setZero();
     for (const auto& [unknown, factor] : terms) {
@@ -97,14 +106,33 @@ Uncertainty Assess(const ModalStart& start, const ModalFit& fit) {
       const Index k = found - free.begin();
       if (found != free.end()) product[k] = factor * prior[k];
     }
-    return spread_of(product);
+    return covariance.Deviation(product);
   };
-  const ModalLayout& at = start.frame.layout;
-  result.products.resize(2 * at.axes());
+  Eigen::VectorXd products(2 * at.axes());
   for (Index axis = 0; axis < at.axes(); ++axis) {
-    result.products[axis] = sum_of({{at.ki + axis, 1.0}, {at.gain + axis, 1.0}, {at.mass, -1.0}});
-    result.products[at.axes() + axis] = sum_of({{at.ks + axis, 1.0}, {at.mass, -1.0}});
+    products[axis] = sum_of({{at.ki + axis, 1.0}, {at.gain + axis, 1.0}, {at.mass, -1.0}});
+    products[at.axes() + axis] = sum_of({{at.ks + axis, 1.0}, {at.mass, -1.0}});
   }
+  return products;
+}
+
+}  // namespace
+
+Uncertainty Assess(const ModalStart& start, const ModalFit& fit) {
+  const std::vector<Index> free = FittedUnknowns(fit);
+  const Eigen::VectorXd prior = start.prior(free);
+  // In units of the priors: information of the prior is the identity.
+  const Eigen::MatrixXd data =
+      prior.asDiagonal() * fit.information(free, free) * prior.asDiagonal();
+  const Information solver(data);
+  const Covariance covariance = CovarianceOf(solver, fit, free, prior);
+  Uncertainty result{Eigen::VectorXd::Zero(start.vector.size()), {}, {}};
+  const auto count = static_cast<Index>(free.size());
+  for (Index k = 0; k < count; ++k) {
+    const Eigen::VectorXd unit = prior[k] * Eigen::VectorXd::Unit(count, k);
+    result.deviation[free[static_cast<std::size_t>(k)]] = covariance.Deviation(unit);
+  }
+  result.products = ProductDeviations(start.frame.layout, free, prior, covariance);
   for (Index n = 0; n < solver.eigenvalues().size() && solver.eigenvalues()[n] < 1.0; ++n) {
     result.directions.push_back(DirectionOf(start, free, solver.eigenvectors().col(n)));
   }

@@ -30,6 +30,17 @@ Best Choose(const Eigen::MatrixXd& p, const Eigen::VectorXd& target, const Eigen
   return best;
 }
 
+/// Parameters of the chosen columns: R theta = g.
+Eigen::VectorXd SolveChosen(const Eigen::MatrixXd& r, const Eigen::VectorXd& g,
+                            const std::vector<Index>& chosen) {
+  const auto count = static_cast<Index>(chosen.size());
+  Eigen::MatrixXd upper(count, count);
+  for (Index i = 0; i < count; ++i) {
+    upper.col(i) = r.col(chosen[static_cast<std::size_t>(i)]).head(count);
+  }
+  return upper.triangularView<Eigen::Upper>().solve(g.head(count));
+}
+
 }  // namespace
 
 FrolsResult SelectTerms(Eigen::MatrixXd p, const Eigen::VectorXd& target,
@@ -68,12 +79,7 @@ FrolsResult SelectTerms(Eigen::MatrixXd p, const Eigen::VectorXd& target,
     result.chosen.push_back(best.column);
     result.ratio.push_back(best.ratio);
   }
-  const auto count = static_cast<Index>(result.chosen.size());
-  Eigen::MatrixXd upper(count, count);
-  for (Index i = 0; i < count; ++i) {
-    upper.col(i) = r.col(result.chosen[static_cast<std::size_t>(i)]).head(count);
-  }
-  result.theta = upper.triangularView<Eigen::Upper>().solve(g.head(count));
+  result.theta = SolveChosen(r, g, result.chosen);
   return result;
 }
 

@@ -17,6 +17,42 @@ constexpr double kWholeSample = 1e-9;
 // A lag this much faster than the substep is immediate; keeps tau = 0 away from the division.
 constexpr double kFastestLagHz = 1e12;
 
+void StoreModeStep(std::size_t at, const ModeStep& step, StepTable& table) noexcept {
+  table.xx[at] = step.xx;
+  table.xv[at] = step.xv;
+  table.vx[at] = step.vx;
+  table.vv[at] = step.vv;
+  table.x0[at] = step.x0;
+  table.v0[at] = step.v0;
+  table.x1[at] = step.x1;
+  table.v1[at] = step.v1;
+}
+
+/// Of amplifiers and sensors.
+void MakeAxisSteps(const RigNow& now, const EffectModel& effects, StepTable& table) noexcept {
+  for (std::size_t axis = 0; axis < table.amplifier.size(); ++axis) {
+    table.amplifier[axis] = amplifier::MakeStep(now.amplifier_bandwidth_hz[axis],
+                                                now.slew_a_per_s[axis], table.duration_s);
+    const ReadingEffects& reading = effects.readings[axis];
+    table.sensor[axis] =
+        sensor::MakeFilterStep(reading.bandwidth_hz, reading.gain, table.duration_s);
+    if (!table.second_order.empty()) {
+      table.second_order[axis] = MakeModeStep(2.0 * std::numbers::pi * reading.bandwidth_hz,
+                                              sensor::kButterworthDamping, table.duration_s);
+    }
+  }
+}
+
+void MakeEddySteps(const EffectModel& effects, StepTable& table) noexcept {
+  for (std::size_t i = 0; i < table.eddy.size(); ++i) {
+    const std::size_t axis = i / effect::kEddyLags;
+    const double tau_s = effects.bearings[axis / 2].axis[axis % 2].eddy_tau_s;
+    const double corner_rad_per_s = effect::Eddy().rate[i % effect::kEddyLags] / tau_s;
+    const double corner_hz = std::min(corner_rad_per_s / (2.0 * std::numbers::pi), kFastestLagHz);
+    table.eddy[i] = sensor::MakeFilterStep(corner_hz, 1.0, table.duration_s);
+  }
+}
+
 }  // namespace
 
 void PlantModel::ReserveSteps() {
@@ -60,14 +96,7 @@ void PlantModel::RefreshStep(StepTable& table, double share) noexcept {
   table.duration_s = share * period_s / table.substeps;
   const std::size_t modes = layout_.modes;
   const auto store = [&table](std::size_t at, const ModeStep& step) {
-    table.xx[at] = step.xx;
-    table.xv[at] = step.xv;
-    table.vx[at] = step.vx;
-    table.vv[at] = step.vv;
-    table.x0[at] = step.x0;
-    table.v0[at] = step.v0;
-    table.x1[at] = step.x1;
-    table.v1[at] = step.v1;
+    StoreModeStep(at, step, table);
   };
   // Both planes carry the same numbers, so that one loop runs over all modes.
   for (std::size_t i = 0; i < modes; ++i) {
@@ -83,24 +112,8 @@ void PlantModel::RefreshStep(StepTable& table, double share) noexcept {
     store(2 * modes + i, MakeModeStep(parameters_.torsion.frequency_rad_per_s[mode],
                                       parameters_.torsion.damping_ratio[mode], table.duration_s));
   }
-  for (std::size_t axis = 0; axis < table.amplifier.size(); ++axis) {
-    table.amplifier[axis] = amplifier::MakeStep(now_.amplifier_bandwidth_hz[axis],
-                                                now_.slew_a_per_s[axis], table.duration_s);
-    const ReadingEffects& reading = effects_.readings[axis];
-    table.sensor[axis] =
-        sensor::MakeFilterStep(reading.bandwidth_hz, reading.gain, table.duration_s);
-    if (!table.second_order.empty()) {
-      table.second_order[axis] = MakeModeStep(2.0 * std::numbers::pi * reading.bandwidth_hz,
-                                              sensor::kButterworthDamping, table.duration_s);
-    }
-  }
-  for (std::size_t i = 0; i < table.eddy.size(); ++i) {
-    const std::size_t axis = i / effect::kEddyLags;
-    const double tau_s = effects_.bearings[axis / 2].axis[axis % 2].eddy_tau_s;
-    const double corner_rad_per_s = effect::Eddy().rate[i % effect::kEddyLags] / tau_s;
-    const double corner_hz = std::min(corner_rad_per_s / (2.0 * std::numbers::pi), kFastestLagHz);
-    table.eddy[i] = sensor::MakeFilterStep(corner_hz, 1.0, table.duration_s);
-  }
+  MakeAxisSteps(now_, effects_, table);
+  MakeEddySteps(effects_, table);
   for (std::size_t b = 0; b < table.housing.size(); ++b) {
     const BearingEffects& bearing = effects_.bearings[b];
     table.housing[b] =

@@ -139,6 +139,24 @@ void ApplyToAmplifiers(const PlantParameters& parameters, const EffectConfig& en
   }
 }
 
+void ApplyRotorMass(const PlantParameters& parameters, std::span<const double> strengths,
+                    RigNow& now) noexcept {
+  const auto& entries = parameters.config.effects;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (entries[i].id != Id::kRotorMass) continue;
+    now.mass_ratio *= ValuesAt(parameters, entries[i], 0, strengths[i])[0];
+  }
+}
+
+/// The shaft is straightened by its own stiffness.
+void StraightenBow(const RigNow& now, EffectModel& model) noexcept {
+  const std::size_t modes = now.frequency_rad_per_s.size();
+  for (std::size_t i = 0; i < model.bow.size(); ++i) {
+    const double w = now.frequency_rad_per_s[i % modes];
+    model.bow[i] *= w * w;
+  }
+}
+
 }  // namespace
 
 RigNow PrepareRig(const PlantParameters& parameters) {
@@ -157,11 +175,8 @@ void ApplyEffects(const PlantParameters& parameters, const EntryShapes& shapes,
   Reset(parameters, now, model);
   const auto& entries = parameters.config.effects;
   const double period_s = static_cast<double>(parameters.config.period_ns) * 1e-9;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    // First, because the shapes of all other entries depend on it.
-    if (entries[i].id != Id::kRotorMass) continue;
-    now.mass_ratio *= ValuesAt(parameters, entries[i], 0, strengths[i])[0];
-  }
+  // First, because the shapes of all other entries depend on it.
+  ApplyRotorMass(parameters, strengths, now);
   Slots slots;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const EffectConfig& entry = entries[i];
@@ -193,11 +208,7 @@ void ApplyEffects(const PlantParameters& parameters, const EntryShapes& shapes,
         break;
     }
   }
-  const std::size_t modes = now.frequency_rad_per_s.size();
-  for (std::size_t i = 0; i < model.bow.size(); ++i) {
-    const double w = now.frequency_rad_per_s[i % modes];
-    model.bow[i] *= w * w;  // the shaft is straightened by its own stiffness
-  }
+  StraightenBow(now, model);
 }
 
 }  // namespace levitas::plant

@@ -70,6 +70,27 @@ void ApplyRub(const Values& values, support::Touchdown& rub) noexcept {
   rub.friction = values[3];
 }
 
+void ApplyMisalignment(const Values& values, const std::vector<double>& shape, const RigNow& now,
+                       OrderForce& force) noexcept {
+  Store(shape, now, force.shape);
+  force.order = static_cast<int>(values[1]);
+  force.force_n = std::polar(values[2], values[3]);
+}
+
+void ApplyStaticLoad(const Values& values, const std::vector<double>& shape, RigNow& now) noexcept {
+  const std::size_t modes = shape.size();
+  for (std::size_t i = 0; i < modes; ++i) {
+    now.static_load[i] += shape[i] * values[1];
+    now.static_load[modes + i] += shape[i] * values[2];
+  }
+}
+
+void ApplySupportMode(const Values& values, BearingEffects& bearing) noexcept {
+  bearing.housing_mass_kg = values[0];
+  bearing.housing_rad_per_s = 2.0 * std::numbers::pi * values[1];
+  bearing.housing_damping_ratio = values[2];
+}
+
 }  // namespace
 
 void ApplyToRotor(const PlantParameters& parameters, const EffectConfig& entry,
@@ -118,7 +139,6 @@ void ApplyToRotor(const PlantParameters& parameters, const EffectConfig& entry,
 void ApplyFromOutside(const EffectConfig& entry, const Values& values,
                       const std::vector<double>& shape, RigNow& now, EffectModel& model,
                       Slots& slots) noexcept {
-  const std::size_t modes = shape.size();
   const auto spring = [&](double xx, double xy, double yx) {
     PlaneSpring& to = model.springs[slots.spring++];
     Store(shape, now, to.shape);
@@ -127,14 +147,10 @@ void ApplyFromOutside(const EffectConfig& entry, const Values& values,
     to.yx = yx;
   };
   switch (entry.id) {
-    case Id::kMisalignment: {
+    case Id::kMisalignment:
       if (shape.empty()) break;  // of geared shafts, coupling_effects.hpp
-      OrderForce& to = model.order_forces[slots.order_force++];
-      Store(shape, now, to.shape);
-      to.order = static_cast<int>(values[1]);
-      to.force_n = std::polar(values[2], values[3]);
+      ApplyMisalignment(values, shape, now, model.order_forces[slots.order_force++]);
       break;
-    }
     case Id::kCouplingStiffness:
       spring(values[1], values[2], values[2]);
       break;
@@ -142,18 +158,11 @@ void ApplyFromOutside(const EffectConfig& entry, const Values& values,
       spring(0.0, values[1], -values[1]);
       break;
     case Id::kStaticLoad:
-      for (std::size_t i = 0; i < modes; ++i) {
-        now.static_load[i] += shape[i] * values[1];
-        now.static_load[modes + i] += shape[i] * values[2];
-      }
+      ApplyStaticLoad(values, shape, now);
       break;
-    case Id::kSupportMode: {
-      BearingEffects& bearing = model.bearings[entry.bearing];
-      bearing.housing_mass_kg = values[0];
-      bearing.housing_rad_per_s = 2.0 * std::numbers::pi * values[1];
-      bearing.housing_damping_ratio = values[2];
+    case Id::kSupportMode:
+      ApplySupportMode(values, model.bearings[entry.bearing]);
       break;
-    }
     case Id::kTouchdownRub:
       ApplyRub(values, model.bearings[entry.bearing].rubs[slots.rub[entry.bearing]++]);
       break;
