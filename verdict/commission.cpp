@@ -111,6 +111,12 @@ analysis::SpeedSweep Sensitivities(const configuration::RigFile& rig,
                                         spun ? top_speed_rad_per_s : 0.0);
 }
 
+std::vector<std::string> BlockNames(const configuration::ControllerFile& controller) {
+  std::vector<std::string> names;
+  for (const auto& block : controller.synchronous.blocks) names.push_back(block.name);
+  return names;
+}
+
 }  // namespace
 
 Verdict Commission(const CommissionOptions& options) {
@@ -144,10 +150,8 @@ Verdict Commission(const CommissionOptions& options) {
   inputs.provenance.rig = rig.numbers.name;
   inputs.provenance.controller = controller.name;
   if (inputs.timing) inputs.provenance.trip_file = inputs.timing->trip_file;
-  std::vector<std::string> blocks;
-  for (const auto& block : controller.synchronous.blocks) blocks.push_back(block.name);
   inputs.blocks = BlocksOf(reader.events(), gathered.first_cycle(), gathered.last_cycle(),
-                           rig.numbers.period_s(), blocks);
+                           rig.numbers.period_s(), BlockNames(controller));
   inputs.saves_bias = !controller.bias.empty();
   inputs.trip_text = FirstTripText(reader.events());
   inputs.incomplete_reason = options.incomplete_reason.empty()

@@ -195,6 +195,30 @@ std::string AcceptedWhere(const SpeedRange& range) {
   return where.empty() ? "ACCEPTED" : "ACCEPTED " + where;
 }
 
+/// Outcome and sentence.
+void Conclude(const Inputs& inputs, const std::vector<Objection>& objections, Verdict& verdict) {
+  if (inputs.session.trip) {
+    verdict.outcome = Outcome::kTripped;
+    verdict.sentence = TripSentence(inputs) + StepsBefore(inputs);
+    if (inputs.session.release) {
+      verdict.sentence += fmt::format(" ({}.)", ReleaseSentence(*inputs.session.release));
+    }
+  } else if (!inputs.incomplete_reason.empty()) {
+    verdict.outcome = Outcome::kIncomplete;
+    verdict.sentence = "INCOMPLETE: " + inputs.incomplete_reason;
+    if (inputs.session.release) {
+      verdict.sentence += "; " + ReleaseSentence(*inputs.session.release);
+    }
+  } else if (!verdict.objections.empty()) {
+    verdict.outcome = Outcome::kNotAccepted;
+    verdict.sentence = "NOT ACCEPTED: " + Summed(objections);
+  } else {
+    verdict.outcome = Outcome::kAccepted;
+    verdict.sentence = fmt::format("{}: orbit {}, {}", AcceptedWhere(verdict.range),
+                                   WorstOf(verdict.orbits, false), WorstOf(verdict.orbits, true));
+  }
+}
+
 }  // namespace
 
 std::string_view Name(Outcome outcome) noexcept {
@@ -222,26 +246,7 @@ Verdict Judge(Inputs inputs) {
   if (inputs.timing && inputs.timing->delay && !inputs.timing->delay->objection.empty()) {
     verdict.warnings.push_back(inputs.timing->delay->objection);
   }
-  if (inputs.session.trip) {
-    verdict.outcome = Outcome::kTripped;
-    verdict.sentence = TripSentence(inputs) + StepsBefore(inputs);
-    if (inputs.session.release) {
-      verdict.sentence += fmt::format(" ({}.)", ReleaseSentence(*inputs.session.release));
-    }
-  } else if (!inputs.incomplete_reason.empty()) {
-    verdict.outcome = Outcome::kIncomplete;
-    verdict.sentence = "INCOMPLETE: " + inputs.incomplete_reason;
-    if (inputs.session.release) {
-      verdict.sentence += "; " + ReleaseSentence(*inputs.session.release);
-    }
-  } else if (!verdict.objections.empty()) {
-    verdict.outcome = Outcome::kNotAccepted;
-    verdict.sentence = "NOT ACCEPTED: " + Summed(objections);
-  } else {
-    verdict.outcome = Outcome::kAccepted;
-    verdict.sentence = fmt::format("{}: orbit {}, {}", AcceptedWhere(verdict.range),
-                                   WorstOf(verdict.orbits, false), WorstOf(verdict.orbits, true));
-  }
+  Conclude(inputs, objections, verdict);
   verdict.inputs = std::move(inputs);
   return verdict;
 }

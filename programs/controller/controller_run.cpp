@@ -163,13 +163,7 @@ class Session {
   }
 
   ExitStatus Run() {
-    loop::CommandArbiter arbiter({.period_s = numbers_.period_s(),
-                                  .stop_acceleration_rad_per_s2 = StopRate(),
-                                  .standstill_rad_per_s = sequence_.standstill_rad_per_s,
-                                  .landing_ramp_s = sequence_.landing_ramp_s,
-                                  .duration_s = options_.duration_s,
-                                  .excitation = signal_limits_},
-                                 player_ ? &*player_ : nullptr,
+    loop::CommandArbiter arbiter(ArbiterLimits(), player_ ? &*player_ : nullptr,
                                  {&intake_.commands(), &intake_.stops(), &answers_.given()});
     rt::Say("amb-controller: who may command: " + policy_.who);
     std::optional<transport::OperatorReceiver> receiver;
@@ -209,6 +203,15 @@ class Session {
  private:
   [[nodiscard]] double StopRate() const {
     return std::min(sequence_.trip_acceleration_rad_per_s2, numbers_.max_acceleration_rad_per_s2);
+  }
+
+  [[nodiscard]] loop::ArbiterOptions ArbiterLimits() const {
+    return {.period_s = numbers_.period_s(),
+            .stop_acceleration_rad_per_s2 = StopRate(),
+            .standstill_rad_per_s = sequence_.standstill_rad_per_s,
+            .landing_ramp_s = sequence_.landing_ramp_s,
+            .duration_s = options_.duration_s,
+            .excitation = signal_limits_};
   }
 
   /// Amplifiers off, and the drive brakes a rotor that is not known to stand.

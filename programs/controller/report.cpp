@@ -67,6 +67,45 @@ std::string DelayText(const DelayWatch& delay) {
   return objection.empty() ? text : text + objection + '\n';
 }
 
+nlohmann::ordered_json LinesJson(const gpio::LineCounters& lines) {
+  return {{"stops", lines.stops},
+          {"enables", lines.enables},
+          {"write_failures", lines.write_failures},
+          {"pulses_good", lines.pulses.good},
+          {"pulses_extra", lines.pulses.extra},
+          {"pulses_missing", lines.pulses.missing},
+          {"pulse_jumps", lines.pulses.jumps}};
+}
+
+nlohmann::ordered_json DelayJson(const DelayWatch& delay) {
+  const can_port::DelayFigures acting = delay.meter().Acting();
+  return {{"expected_periods", delay.expected_periods()},
+          {"arrived", Figures(delay.meter().Arrived())},
+          {"acting", Figures(acting)},
+          {"objection", DelayObjection(acting, delay.expected_periods())}};
+}
+
+std::string OverrunsText(const loop::LoopStatistics& statistics) {
+  if (statistics.overruns == 0) return "";
+  std::string text =
+      fmt::format("overruns                         {}, blamed:", statistics.overruns);
+  for (std::size_t at = 1; at < cycle::kStageCount; ++at) {
+    if (statistics.blamed[at] == 0) continue;
+    text += fmt::format(" {} {}", loop::StageName(static_cast<cycle::Stage>(at)),
+                        statistics.blamed[at]);
+  }
+  return text + '\n';
+}
+
+std::string EmergencyStopText(const Histogram& stop) {
+  if (stop.count() == 0) return "";
+  return fmt::format(
+      "operator's stop to trip          {:.1f} / {:.1f} / {:.1f} us (p50 / p99 / "
+      "longest of {})\n",
+      stop.Percentile(0.5) * 1e-3, stop.Percentile(0.99) * 1e-3,
+      static_cast<double>(stop.max_ns()) * 1e-3, stop.count());
+}
+
 std::string Triple(const Histogram& histogram) {
   return fmt::format("{:.2f} / {:.2f} / {:.2f} us", histogram.Percentile(0.5) * 1e-3,
                      histogram.Percentile(0.99) * 1e-3, histogram.Percentile(0.999) * 1e-3);
@@ -105,22 +144,8 @@ nlohmann::ordered_json ReportJson(const RunFacts& facts) {
       {"trip_file", facts.trip_file},
       {"scenario_problem", facts.scenario_problem},
       {"realtime", rt::Text(facts.real_time)}};
-  if (facts.lines != nullptr) {
-    json["lines"] = {{"stops", facts.lines->stops},
-                     {"enables", facts.lines->enables},
-                     {"write_failures", facts.lines->write_failures},
-                     {"pulses_good", facts.lines->pulses.good},
-                     {"pulses_extra", facts.lines->pulses.extra},
-                     {"pulses_missing", facts.lines->pulses.missing},
-                     {"pulse_jumps", facts.lines->pulses.jumps}};
-  }
-  if (facts.delay != nullptr) {
-    const can_port::DelayFigures acting = facts.delay->meter().Acting();
-    json["delay"] = {{"expected_periods", facts.delay->expected_periods()},
-                     {"arrived", Figures(facts.delay->meter().Arrived())},
-                     {"acting", Figures(acting)},
-                     {"objection", DelayObjection(acting, facts.delay->expected_periods())}};
-  }
+  if (facts.lines != nullptr) json["lines"] = LinesJson(*facts.lines);
+  if (facts.delay != nullptr) json["delay"] = DelayJson(*facts.delay);
   json["timing"] = TimingJson(facts.statistics);
   return json;
 }
@@ -137,22 +162,8 @@ std::string ReportText(const RunFacts& facts) {
     text += fmt::format("sample to current                {}\n", Triple(statistics.latency));
   }
   if (facts.delay != nullptr) text += DelayText(*facts.delay);
-  if (statistics.overruns > 0) {
-    text += fmt::format("overruns                         {}, blamed:", statistics.overruns);
-    for (std::size_t at = 1; at < cycle::kStageCount; ++at) {
-      if (statistics.blamed[at] == 0) continue;
-      text += fmt::format(" {} {}", loop::StageName(static_cast<cycle::Stage>(at)),
-                          statistics.blamed[at]);
-    }
-    text += '\n';
-  }
-  if (const Histogram& stop = statistics.emergency_stop; stop.count() > 0) {
-    text += fmt::format(
-        "operator's stop to trip          {:.1f} / {:.1f} / {:.1f} us (p50 / p99 / "
-        "longest of {})\n",
-        stop.Percentile(0.5) * 1e-3, stop.Percentile(0.99) * 1e-3,
-        static_cast<double>(stop.max_ns()) * 1e-3, stop.count());
-  }
+  text += OverrunsText(statistics);
+  text += EmergencyStopText(statistics.emergency_stop);
   text += SignalsText(facts.signals_reduced);
   if (facts.commands.dropped > 0) {
     text +=

@@ -15,6 +15,18 @@ const char* PaceName(const PlantOptions& options) noexcept {
 
 namespace {
 
+void AddPace(CLI::App& app, PlantOptions& options) {
+  app.add_option("--pace")
+      ->description("lockstep (default), realtime, or paced: lockstep held to the clock")
+      ->default_str("lockstep")
+      ->check(CLI::IsMember({"lockstep", "realtime", "paced"}))
+      ->type_name("PACE");
+  app.add_option("--pace-factor", options.pace_factor,
+                 "With --pace paced: how many seconds of the rig pass in one of the clock")
+      ->check(CLI::Range(kLeastPaceFactor, kMostPaceFactor))
+      ->capture_default_str();
+}
+
 /// What --pace and --pace-factor say together.
 void SettlePace(const CLI::App& app, PlantOptions& options) {
   const auto pace = app.get_option("--pace")->as<std::string>();
@@ -40,15 +52,7 @@ void AddOptions(CLI::App& app, const PlantProgram& program, PlantOptions& option
   app.add_option("--key", options.key,
                  "amb-plant: file with the key of those who may speak on the network; with ttl "
                  "above 0 it is needed");
-  app.add_option("--pace")
-      ->description("lockstep (default), realtime, or paced: lockstep held to the clock")
-      ->default_str("lockstep")
-      ->check(CLI::IsMember({"lockstep", "realtime", "paced"}))
-      ->type_name("PACE");
-  app.add_option("--pace-factor", options.pace_factor,
-                 "With --pace paced: how many seconds of the rig pass in one of the clock")
-      ->check(CLI::Range(kLeastPaceFactor, kMostPaceFactor))
-      ->capture_default_str();
+  AddPace(app, options);
   app.add_option("--seed", options.seed, "Seed of the sensor noise")
       ->check(WhyNoWholeNumber)
       ->capture_default_str();

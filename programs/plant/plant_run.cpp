@@ -176,17 +176,23 @@ std::unique_ptr<rt::RealTimeGuard> PrepareRealTime(const PlantSetup& setup) {
   return guard;
 }
 
+/// Empty when none is asked for.
+scenario::ScenarioConfig ScenarioOf(const PlantOptions& options, const RigNumbers& numbers) {
+  scenario::ScenarioConfig scenario;
+  if (!options.scenario.empty()) {
+    scenario = configuration::LoadScenario(configuration::FindConfig(options.scenario, "scenarios"),
+                                           numbers);
+  }
+  return scenario;
+}
+
 }  // namespace
 
 ExitStatus RunPlant(const PlantSetup& setup) {
   const PlantOptions& options = setup.options;
   const RigNumbers& numbers = setup.rig.numbers;
   plant::Plant plant(setup.rig.plant, options.seed);
-  scenario::ScenarioConfig scenario;
-  if (!options.scenario.empty()) {
-    scenario = configuration::LoadScenario(configuration::FindConfig(options.scenario, "scenarios"),
-                                           numbers);
-  }
+  const scenario::ScenarioConfig scenario = ScenarioOf(options, numbers);
   TimedEvents events(scenario, setup.rig.numbers, setup.rig.plant);
   events.Prepare(plant);
   plant.RestInTouchdown();

@@ -41,6 +41,18 @@ Json CorrectionJson(const CorrectionResult& one, bool drill) {
   return json;
 }
 
+Json ModalUnbalanceJson(const ModalUnbalance& one) {
+  const bool couple = one.name == "couple";
+  const double scale = couple ? 1e9 : 1e6;
+  const std::string unit = couple ? "g_mm2" : "g_mm";
+  return {{"what", one.name},
+          {"frequency_hz", one.frequency_hz},
+          {"before_" + unit, scale * std::abs(one.before)},
+          {"after_" + unit, scale * std::abs(one.after)},
+          {"angle_deg", Degrees(std::arg(one.before))},
+          {"deviation_" + unit, scale * one.deviation}};
+}
+
 /// Amplitude and angle per axis.
 Json AxesJson(const Eigen::VectorXcd& position_m) {
   Json axes = Json::array();
@@ -88,15 +100,7 @@ Json BalanceJson(const BalanceRequest& request, const BalanceResult& result) {
     json["corrections"].push_back(CorrectionJson(one, request.planes.drill));
   }
   for (const ModalUnbalance& one : result.modal) {
-    const bool couple = one.name == "couple";
-    const double scale = couple ? 1e9 : 1e6;
-    const std::string unit = couple ? "g_mm2" : "g_mm";
-    json["modal"].push_back({{"what", one.name},
-                             {"frequency_hz", one.frequency_hz},
-                             {"before_" + unit, scale * std::abs(one.before)},
-                             {"after_" + unit, scale * std::abs(one.after)},
-                             {"angle_deg", Degrees(std::arg(one.before))},
-                             {"deviation_" + unit, scale * one.deviation}});
+    json["modal"].push_back(ModalUnbalanceJson(one));
   }
   for (std::size_t i = 0; i < result.unknowns.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);

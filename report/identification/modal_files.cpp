@@ -74,6 +74,31 @@ svg::Figure Campbell(const ModalResult& r) {
   return {.panel_width = 700, .panel_height = 480, .panels = {panel}};
 }
 
+/// `i`: bending mode, the first is 0.
+Json ModeJson(const ModalResult& r, Eigen::Index i) {
+  const ModalLayout& at = r.start.frame.layout;
+  const Eigen::VectorXd& deviation = r.uncertainty.deviation;
+  const double f = r.rig.frequency_rad_per_s[2 + i] / kTwoPi;
+  return {{"frequency_hz", f},
+          {"frequency_sigma_hz", f * deviation[at.frequency + i]},
+          {"damping_ratio", r.rig.damping_ratio[2 + i]},
+          {"damping_sigma", r.rig.damping_ratio[2 + i] * deviation[at.damping + i]},
+          {"shown_by_the_data", r.support[static_cast<std::size_t>(i)].support == Support::kShown},
+          {"actuator_deflection", Row(r.rig.actuator, 2 + i)},
+          {"sensor_deflection", Row(r.rig.sensor, 2 + i)}};
+}
+
+Json AxisJson(const ModalResult& r, Eigen::Index a) {
+  const ModalLayout& at = r.start.frame.layout;
+  const Eigen::VectorXd& deviation = r.uncertainty.deviation;
+  return {{"channel", r.channels[static_cast<std::size_t>(a)]},
+          {"ki_n_per_a", r.rig.ki_n_per_a[a]},
+          {"ki_sigma_n_per_a", r.rig.ki_n_per_a[a] * deviation[at.ki + a]},
+          {"ks_n_per_m", r.rig.ks_n_per_m[a]},
+          {"ks_sigma_n_per_m", r.rig.ks_n_per_m[a] * deviation[at.ks + a]},
+          {"sensor_gain", r.rig.gain[a]}};
+}
+
 }  // namespace
 
 Json ModalJson(const ModalResult& r) {
@@ -88,26 +113,8 @@ Json ModalJson(const ModalResult& r) {
             {"centre_z_m", r.rig.centre_z_m},
             {"delay_samples", r.rig.delay_samples}};
   const ModalLayout& at = r.start.frame.layout;
-  const Eigen::VectorXd& deviation = r.uncertainty.deviation;
-  for (Eigen::Index i = 0; i < at.bending; ++i) {
-    const double f = r.rig.frequency_rad_per_s[2 + i] / kTwoPi;
-    json["modes"].push_back(
-        {{"frequency_hz", f},
-         {"frequency_sigma_hz", f * deviation[at.frequency + i]},
-         {"damping_ratio", r.rig.damping_ratio[2 + i]},
-         {"damping_sigma", r.rig.damping_ratio[2 + i] * deviation[at.damping + i]},
-         {"shown_by_the_data", r.support[static_cast<std::size_t>(i)].support == Support::kShown},
-         {"actuator_deflection", Row(r.rig.actuator, 2 + i)},
-         {"sensor_deflection", Row(r.rig.sensor, 2 + i)}});
-  }
-  for (Eigen::Index a = 0; a < at.axes(); ++a) {
-    json["axes"].push_back({{"channel", r.channels[static_cast<std::size_t>(a)]},
-                            {"ki_n_per_a", r.rig.ki_n_per_a[a]},
-                            {"ki_sigma_n_per_a", r.rig.ki_n_per_a[a] * deviation[at.ki + a]},
-                            {"ks_n_per_m", r.rig.ks_n_per_m[a]},
-                            {"ks_sigma_n_per_m", r.rig.ks_n_per_m[a] * deviation[at.ks + a]},
-                            {"sensor_gain", r.rig.gain[a]}});
-  }
+  for (Eigen::Index i = 0; i < at.bending; ++i) json["modes"].push_back(ModeJson(r, i));
+  for (Eigen::Index a = 0; a < at.axes(); ++a) json["axes"].push_back(AxisJson(r, a));
   for (Eigen::Index i = 1; i < at.modes(); ++i) {
     json["gyroscopic"].push_back(Row(r.rig.gyroscopic, i));
   }

@@ -83,6 +83,25 @@ void RefuseOtherChannels(const std::vector<RecordToCompare>& records) {
   }
 }
 
+ComparedRecord ComparedAt(const RecordToCompare& record,
+                          const analysis::SynchronousAnalysis& synchronous,
+                          const std::vector<double>& speeds_rad_per_s) {
+  ComparedRecord one{record.label,
+                     record.path,
+                     record.rig.numbers.name,
+                     record.controller,
+                     record.recording.damage,
+                     {},
+                     {}};
+  for (const double speed : speeds_rad_per_s) {
+    auto found = synchronous.At(speed);
+    one.speeds.push_back(
+        found ? std::optional(WithOrbits(record, std::move(*found), synchronous.Standing(speed)))
+              : std::nullopt);
+  }
+  return one;
+}
+
 }  // namespace
 
 Comparison Compare(const std::vector<RecordToCompare>& records, const ComparisonRequest& request) {
@@ -110,20 +129,7 @@ Comparison Compare(const std::vector<RecordToCompare>& records, const Comparison
         "are passed with --speeds");
   }
   for (std::size_t i = 0; i < records.size(); ++i) {
-    const RecordToCompare& record = records[i];
-    ComparedRecord one{record.label,
-                       record.path,
-                       record.rig.numbers.name,
-                       record.controller,
-                       record.recording.damage,
-                       {},
-                       {}};
-    for (const double speed : made.speeds_rad_per_s) {
-      auto found = analyses[i].At(speed);
-      one.speeds.push_back(
-          found ? std::optional(WithOrbits(record, std::move(*found), analyses[i].Standing(speed)))
-                : std::nullopt);
-    }
+    ComparedRecord one = ComparedAt(records[i], analyses[i], made.speeds_rad_per_s);
     if (request.over_speed) one.over_speed = analyses[i].OverSpeed();
     made.records.push_back(std::move(one));
   }

@@ -169,6 +169,22 @@ std::string Found(const std::vector<std::string>& cells) {
          "--map takes it";
 }
 
+void RefuseTooManyColumns(std::size_t count, const std::string& where) {
+  if (count > kMostColumns) {
+    throw BadInput(
+        fmt::format("{}: has {} columns, at most {} are allowed: leave out what is not "
+                    "of the rig",
+                    where, count, kMostColumns));
+  }
+}
+
+void RefuseProblems(const std::vector<std::string>& problems, const std::string& where) {
+  if (problems.empty()) return;
+  std::string text;
+  for (const auto& problem : problems) text += (text.empty() ? "" : "\n") + problem;
+  throw BadInput(fmt::format("{}: {}", where, text));
+}
+
 /// None of the channels is the rig's: one sentence says more than a line for every column.
 void RefuseOtherRig(const std::vector<std::string>& cells, const std::string& where,
                     const std::vector<std::string>& channels) {
@@ -247,12 +263,7 @@ void SplitCsv(std::string_view line, char separator, std::vector<std::string_vie
 
 CsvLayout ParseColumns(const std::vector<std::string>& cells, const std::string& where,
                        const std::vector<std::string>& channels) {
-  if (cells.size() > kMostColumns) {
-    throw BadInput(
-        fmt::format("{}: has {} columns, at most {} are allowed: leave out what is not "
-                    "of the rig",
-                    where, cells.size(), kMostColumns));
-  }
+  RefuseTooManyColumns(cells.size(), where);
   RefuseOtherRig(cells, where, channels);
   CsvLayout layout;
   const std::vector<CsvColumn> known = KnownColumns(channels);
@@ -288,11 +299,7 @@ CsvLayout ParseColumns(const std::vector<std::string>& cells, const std::string&
   }
   const auto missing = Missing(layout, channels);
   if (!missing.empty()) problems.push_back("columns missing: " + Listed(missing) + Found(cells));
-  if (!problems.empty()) {
-    std::string text;
-    for (const auto& problem : problems) text += (text.empty() ? "" : "\n") + problem;
-    throw BadInput(fmt::format("{}: {}", where, text));
-  }
+  RefuseProblems(problems, where);
   return layout;
 }
 

@@ -32,6 +32,41 @@ std::string WhereOf(const std::string& path, const CsvHead& head) {
   return path + ": no line names the columns, which are counted";
 }
 
+/// Null for a column that is ignored.
+double* NumberIn(CsvRow& row, const CsvColumn& column) noexcept {
+  switch (column.quantity) {
+    case CsvQuantity::kTime:
+      return &row.time_s;
+    case CsvQuantity::kAngle:
+      return &row.angle_rad;
+    case CsvQuantity::kSpeed:
+      return &row.speed_rad_per_s;
+    case CsvQuantity::kPosition:
+      return &row.position_m[column.axis];
+    case CsvQuantity::kControlCurrent:
+      return &row.control_current_a[column.axis];
+    case CsvQuantity::kExcitation:
+      return &row.excitation_a[column.axis];
+    case CsvQuantity::kPositionExcitation:
+      return &row.excitation_m[column.axis];
+    case CsvQuantity::kGap:
+      return &row.gap_m[column.axis];
+    case CsvQuantity::kDutyTowards:
+      return &row.duty_towards[column.axis];
+    case CsvQuantity::kDutyAway:
+      return &row.duty_away[column.axis];
+    case CsvQuantity::kCoilTowards:
+      return &row.coil_current_a[2 * column.axis];
+    case CsvQuantity::kCoilAway:
+      return &row.coil_current_a[2 * column.axis + 1];
+    case CsvQuantity::kBias:
+      return &row.bias_current_a;
+    case CsvQuantity::kIgnored:
+      break;
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 CsvRows::CsvRows(const std::string& path, const std::vector<std::string>& channels,
@@ -109,50 +144,10 @@ double CsvRows::Number(std::size_t index) {
 }
 
 void Put(const CsvColumn& column, double in_unit, CsvRow& row) noexcept {
+  double* const number = NumberIn(row, column);
+  if (number == nullptr) return;
   const double value = column.factor * (in_unit - column.offset) / column.divisor;
-  switch (column.quantity) {
-    case CsvQuantity::kTime:
-      row.time_s = value;
-      return;
-    case CsvQuantity::kAngle:
-      row.angle_rad = value;
-      return;
-    case CsvQuantity::kSpeed:
-      row.speed_rad_per_s = RpmToRadPerS(value);
-      return;
-    case CsvQuantity::kPosition:
-      row.position_m[column.axis] = value;
-      return;
-    case CsvQuantity::kControlCurrent:
-      row.control_current_a[column.axis] = value;
-      return;
-    case CsvQuantity::kExcitation:
-      row.excitation_a[column.axis] = value;
-      return;
-    case CsvQuantity::kPositionExcitation:
-      row.excitation_m[column.axis] = value;
-      return;
-    case CsvQuantity::kGap:
-      row.gap_m[column.axis] = value;
-      return;
-    case CsvQuantity::kDutyTowards:
-      row.duty_towards[column.axis] = value;
-      return;
-    case CsvQuantity::kDutyAway:
-      row.duty_away[column.axis] = value;
-      return;
-    case CsvQuantity::kCoilTowards:
-      row.coil_current_a[2 * column.axis] = value;
-      return;
-    case CsvQuantity::kCoilAway:
-      row.coil_current_a[2 * column.axis + 1] = value;
-      return;
-    case CsvQuantity::kBias:
-      row.bias_current_a = value;
-      return;
-    case CsvQuantity::kIgnored:
-      return;
-  }
+  *number = column.quantity == CsvQuantity::kSpeed ? RpmToRadPerS(value) : value;
 }
 
 }  // namespace levitas::session
