@@ -63,8 +63,10 @@ void SetNumber(Field field, std::uint8_t axis, double number, Values& values) no
     case Field::kSpeedSetPoint:
       values.speed_set_point_rad_per_s = number;
       break;
-    default:
+    case Field::kAccelerationLimit:
       values.acceleration_limit_rad_per_s2 = number;
+      break;
+    default:  // no number: Take() sets it
       break;
   }
 }
@@ -184,7 +186,13 @@ void MessageCodec::Take(const Place& place, std::uint64_t raw, Values& values) n
     case Field::kGoodbye:
       values.goodbye = raw != 0;
       break;
-    default:
+    case Field::kPosition:
+    case Field::kCurrent:
+    case Field::kSpeed:
+    case Field::kAngle:
+    case Field::kBias:
+    case Field::kSpeedSetPoint:
+    case Field::kAccelerationLimit:
       SetNumber(place.field, place.axis, number, values);
       break;
   }

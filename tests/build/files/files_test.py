@@ -105,7 +105,8 @@ class Tour(unittest.TestCase):
         tour = "".join((SOURCE / page).read_text(encoding="utf-8") for page in ("README.md", "docs/tour.md"))
         written = set(re.findall(r"--(?:record|csv|out) ([\w.]+)", tour))
         written |= set(re.findall(r"run_picture.py \S+ (\S+)", tour))
-        self.assertIn("run.svg", written)
+        written |= set(re.findall(r"amb new rig (\w+)", tour))
+        self.assertLessEqual({"run.svg", "spindle"}, written)
         for name in sorted(written):
             self.assertTrue(self.ignored(name), name)
             self.assertFalse(self.ignored("docs/" + name), "a file of the project could be lost")
