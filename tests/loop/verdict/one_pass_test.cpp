@@ -14,17 +14,23 @@ namespace levitas::verdict {
 namespace {
 
 using session::testing::RecordedRun;
-using session::testing::ShippedController;
 using session::testing::ShippedHeader;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
+/// The reference gains keep the far end at its current limit by noise alone: no record to measure.
+configuration::ControllerFile Commissioned() {
+  return configuration::LoadController(
+      configuration::FindConfig("flexible_rotor_commissioned", "controllers"),
+      levitas::test::ShippedRig().numbers);
+}
+
 /// Five periods of a PRBS on the current of one axis, of `axes` at once.
 void Excite(RecordedRun& run, const std::vector<std::size_t>& axes) {
-  constexpr int kOrder = 9;
+  constexpr int kOrder = 12;
   scenario::Prbs sequence(kOrder);
   for (int i = 0; i < 5 * ((1 << kOrder) - 1); ++i) {
-    const double value_a = sequence.Next() ? 0.05 : -0.05;
+    const double value_a = sequence.Next() ? 0.1 : -0.1;
     run.Step([&](cycle::CycleInputs& in) {
       for (const std::size_t axis : axes) in.op.excitation_a[axis] = value_a;
     });
@@ -34,7 +40,7 @@ void Excite(RecordedRun& run, const std::vector<std::size_t>& axes) {
 /// A rotor that lies, is lifted, excited as `excite` says, and landed.
 template <class Excitation>
 std::string Session(const levitas::test::ScratchFolder& folder, const Excitation& excite) {
-  RecordedRun run;
+  RecordedRun run(3, levitas::test::CommissionedCycle());
   run.Run(200);
   run.Command(OperatorCommand::kLift);
   EXPECT_TRUE(run.RunUntil(Mode::kLevitating, 30'000));
@@ -42,11 +48,18 @@ std::string Session(const levitas::test::ScratchFolder& folder, const Excitation
   excite(run);
   run.Run(500);
   const std::string path = folder / "run.lcmlog";
-  session::testing::WriteSession(path, run.records, ShippedHeader());
+  session::SessionHeader header = ShippedHeader();
+  header.controller_yaml =
+      configuration::WriteController(Commissioned(), levitas::test::ShippedRig().numbers);
+  session::testing::WriteSession(path, run.records, header);
   return path;
 }
 
-Verdict Of(const std::string& path) { return Commission({.session_path = path}); }
+Verdict Of(const std::string& path) {
+  CommissionOptions options;
+  options.session_path = path;
+  return Commission(options);
+}
 
 TEST(Commission, MeasuresTheSensitivityOfTheWholeSession) {
   const levitas::test::ScratchFolder folder;
@@ -58,7 +71,7 @@ TEST(Commission, MeasuresTheSensitivityOfTheWholeSession) {
   const MeasuredSensitivity& found = *verdict.inputs.measured;
   const auto& rig = levitas::test::ShippedRig();
   const MeasuredSensitivity whole = MeasureSensitivity(
-      session::LoadRecording(path, rig), rig, ShippedController().law, verdict.inputs.sensitivity);
+      session::LoadRecording(path, rig), rig, Commissioned().law, verdict.inputs.sensitivity);
   EXPECT_EQ(found.why_not, "");
   ASSERT_THAT(found.speeds, SizeIs(1));
   ASSERT_THAT(whole.speeds, SizeIs(1));
@@ -77,7 +90,7 @@ TEST(Commission, SaysOfASessionThatCannotBeMeasuredWhenInTheWholeOfIt) {
   ASSERT_TRUE(verdict.inputs.measured);
   const auto& rig = levitas::test::ShippedRig();
   const MeasuredSensitivity whole = MeasureSensitivity(
-      session::LoadRecording(path, rig), rig, ShippedController().law, verdict.inputs.sensitivity);
+      session::LoadRecording(path, rig), rig, Commissioned().law, verdict.inputs.sensitivity);
   EXPECT_THAT(whole.why_not, HasSubstr("together"));
   EXPECT_EQ(verdict.inputs.measured->why_not, whole.why_not);
 }

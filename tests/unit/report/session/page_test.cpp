@@ -99,7 +99,7 @@ TEST(ReportPage, ShowsTheVerdictsSentenceAndTheDurations) {
   compute.p50_ns = 8'250.0;
   input.durations.push_back(compute);
   const std::string page = Page(r, input);
-  EXPECT_THAT(page, HasSubstr("<p class='verdict good'>ACCEPTED: within 1 &amp; 2</p>"));
+  EXPECT_THAT(page, HasSubstr("<p class=\"verdict good\">ACCEPTED: within 1 &amp; 2</p>"));
   EXPECT_THAT(page, HasSubstr("<td>compute</td><td class=n>7</td><td class=n>8.25</td>"));
 }
 
