@@ -1,9 +1,9 @@
 #pragma once
 // What crosses the boundary between controller and rig, once per period, as plain data.
 //
-// Frame   axes of the bearing frame of the rig file (x, y per bearing; positive x towards the coil
-//         that a positive control current strengthens), scaled by the port, with the polarity of
-//         probes and amplifiers as wired: controller/cycle and every reader of records remove it.
+// Frame   axes and their order are those of the rig file's bearing frame (x, y per bearing; positive
+//         x towards the coil that a positive control current strengthens), scaled by the port.
+//         Signs are as wired: controller/cycle and every reader of records remove the polarity.
 // Units   SI, named in the identifiers.
 // Time    `cycle` is the integer number of the period; `_ns` is CLOCK_MONOTONIC in real time and
 //         cycle x period in lockstep.

@@ -1,6 +1,6 @@
 #pragma once
-// What the controller faces: a simulated rig over LCM, a real bus, a test. Chosen by --port;
-// nothing else in the controller changes with it.
+// What the controller faces: a simulated rig over LCM, a real bus, a test. amb-controller has one
+// for each kind of --port; nothing else in the controller changes with it.
 //
 // Thread     loop thread only.
 // Blocking   Read waits at most until the deadline it is given; Write never waits.

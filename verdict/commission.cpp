@@ -9,7 +9,7 @@
 #include "analysis/speed_sweep.hpp"
 #include "configuration/rig_file.hpp"
 #include "plant_sim/rotor/torsion_line.hpp"
-#include "session/exchange/recording_writer.hpp"
+#include "session/exchange/recording_builder.hpp"
 #include "session/log/session_reader.hpp"
 
 namespace levitas::verdict {
@@ -22,7 +22,7 @@ std::string FirstTripText(const std::vector<session::Event>& events) {
   return {};
 }
 
-/// What the caller knows better (a path of the user's) stays.
+/// Port and scenario stay where the caller knows them; the rest is the header's.
 void Complete(Provenance& provenance, const session::SessionHeader& header,
               const std::string& within, const RigNumbers& rig) {
   if (provenance.port.empty()) provenance.port = header.source;
@@ -45,14 +45,14 @@ std::string BreaksOff(const session::Damage& damage, const std::vector<ModeSpan>
   return fmt::format("the record ends while {}", Name(last));
 }
 
-bool Any(const AxisArray& signal) {
+bool HasSignal(const AxisArray& signal) {
   return std::any_of(signal.begin(), signal.end(), [](double value) { return value != 0.0; });
 }
 
 /// What a session is read for, gathered record by record in one pass.
-class Gathered {
+class OnePass {
  public:
-  Gathered(const std::string& name, const configuration::RigFile& rig, double standstill_rad_per_s)
+  OnePass(const std::string& name, const configuration::RigFile& rig, double standstill_rad_per_s)
       : statistics_(rig.numbers, standstill_rad_per_s, kSettleAfterLiftS),
         jumps_(rig, standstill_rad_per_s, kSettleAfterLiftS),
         torsion_(standstill_rad_per_s, kSettleAfterLiftS, rig.numbers.period_s()),
@@ -64,13 +64,12 @@ class Gathered {
     cycle::CycleRecord record;
     while (reader.Next(record)) Add(record);
     last_cycle_ = record.in.cycle;
-    test_signals_.SetDamage(reader.damage().Text());
   }
 
   [[nodiscard]] std::uint64_t first_cycle() const { return first_cycle_.value_or(0); }
   [[nodiscard]] std::uint64_t last_cycle() const { return last_cycle_; }
   /// The first record, then all from the first test signal on; empty where none was given.
-  [[nodiscard]] std::optional<session::Recording> TestSignals() {
+  [[nodiscard]] std::optional<session::Recording> TakeTestSignals() {
     if (!excited_) return {};
     return test_signals_.Finish();
   }
@@ -86,7 +85,8 @@ class Gathered {
     statistics_.Add(record);
     jumps_.Add(record);
     if (!couplings_.empty()) torsion_.Add(record);
-    excited_ = excited_ || Any(record.in.op.excitation_a) || Any(record.in.op.excitation_m);
+    excited_ =
+        excited_ || HasSignal(record.in.op.excitation_a) || HasSignal(record.in.op.excitation_m);
     // The record's time counts from its first row.
     if (excited_ || !first_cycle_) test_signals_.Take(record);
     if (!first_cycle_) first_cycle_ = record.in.cycle;
@@ -96,7 +96,7 @@ class Gathered {
   ProbeJumps jumps_;
   TorsionLoads torsion_;
   std::vector<std::string> couplings_;
-  session::RecordingWriter test_signals_;
+  session::RecordingBuilder test_signals_;
   bool excited_{false};
   std::optional<std::uint64_t> first_cycle_;
   std::uint64_t last_cycle_{};
@@ -126,16 +126,16 @@ Verdict Commission(const CommissionOptions& options) {
   const configuration::RigFile rig = configuration::ParseRig(header.rig_yaml, within);
   const configuration::ControllerFile controller =
       configuration::ParseController(header.controller_yaml, within, rig.numbers);
-  Gathered gathered(options.session_path, rig, controller.supervisor.sequence.standstill_rad_per_s);
-  gathered.Read(reader);
+  OnePass pass(options.session_path, rig, controller.supervisor.sequence.standstill_rad_per_s);
+  pass.Read(reader);
 
   Inputs inputs;
   inputs.rig = rig.numbers;
-  gathered.Fill(reader, inputs);
+  pass.Fill(reader, inputs);
   analysis::SpeedSweep sweep = Sensitivities(rig, controller, inputs.session.top_speed_rad_per_s);
   inputs.sensitivity = std::move(sweep.speeds);
   inputs.worst_sensitivity = sweep.worst;
-  if (const auto signals = gathered.TestSignals()) {
+  if (const auto signals = pass.TakeTestSignals()) {
     inputs.measured = MeasureSensitivity(*signals, rig, controller.law, inputs.sensitivity);
   }
   inputs.damping = DampingOver(inputs.sensitivity, rig.plant, controller.law);
@@ -150,7 +150,7 @@ Verdict Commission(const CommissionOptions& options) {
   inputs.provenance.rig = rig.numbers.name;
   inputs.provenance.controller = controller.name;
   if (inputs.timing) inputs.provenance.trip_file = inputs.timing->trip_file;
-  inputs.blocks = BlocksOf(reader.events(), gathered.first_cycle(), gathered.last_cycle(),
+  inputs.blocks = BlocksOf(reader.events(), pass.first_cycle(), pass.last_cycle(),
                            rig.numbers.period_s(), BlockNames(controller));
   inputs.saves_bias = !controller.bias.empty();
   inputs.trip_text = FirstTripText(reader.events());

@@ -1,9 +1,12 @@
 #include "benchmark/accuracy/hidden_effect.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "plant_sim/effect/catalogue.hpp"
 
@@ -44,15 +47,24 @@ class Drawer {
       case effect::Place::kRotor:
         Rotor();
         break;
-      default:
-        Unmodelled();
+      case effect::Place::kSupport:
+      case effect::Place::kExternal:
+        Outside();
         break;
+      case effect::Place::kGear:
+        Refuse();  // hidden_gear_effect.hpp draws those
     }
     std::vector<EffectConfig> entries{entry_};
     return entries;
   }
 
  private:
+  /// An effect is not drawn as another one: a new one needs a row of its own below.
+  [[noreturn]] void Refuse() const {
+    throw std::logic_error(
+        fmt::format("{}: no size is drawn for it (benchmark/accuracy/hidden_effect.cpp)",
+                    effect::At(entry_.id).name));
+  }
   [[nodiscard]] double Sign() { return random_.Uniform() < 0.5 ? -1.0 : 1.0; }
   [[nodiscard]] double Between(double low, double high) {
     return low + (high - low) * random_.Uniform();
@@ -201,11 +213,13 @@ class Drawer {
         Value(1) = 0.1e-6 * size_;
         Value(2) = Phase();
         break;
-      default:  // noise
+      case Id::kSensorNoise:
         Channels();
         Value(0) = nominal_.config.bearings[0].sensor.noise_rms_m * (1.0 + 0.6 * size_);
         Value(1) = 0.0;
         break;
+      default:
+        Refuse();
     }
   }
 
@@ -243,11 +257,13 @@ class Drawer {
       case Id::kRotorMass:
         Value(0) = Ratio(0.14);
         break;
-      default:  // crack
+      case Id::kBreathingCrack:
         Value(0) = Between(0.2, 0.36);
         Value(1) = std::min(0.5, 0.35 * std::sqrt(size_));
         Value(2) = Phase();
         break;
+      default:
+        Refuse();
     }
   }
 
@@ -260,7 +276,7 @@ class Drawer {
            (2.0 * std::numbers::pi);
   }
 
-  void Unmodelled() {
+  void Outside() {
     switch (entry_.id) {
       case Id::kMisalignment: {
         constexpr std::array kOrders{2.0, -2.0, 3.0, -3.0};
@@ -290,13 +306,15 @@ class Drawer {
         Value(1) = 50.0 * std::pow(5.0, random_.Uniform());
         Value(2) = Between(0.01, 0.04);
         break;
-      default:  // rub
+      case Id::kTouchdownRub:
         Bearing();
         Value(0) = Between(9e-6, 14e-6);
         Value(1) = 3e4 * size_;
         Value(2) = Between(0.0, 50.0);
         Value(3) = Between(0.05, 0.2);
         break;
+      default:
+        Refuse();
     }
   }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+
 #include "diagnosis/report/advice.hpp"
 #include "diagnosis/report/forecast_text.hpp"
 #include "diagnosis/report/report_text.hpp"
@@ -36,13 +38,14 @@ std::string GainSentence(const DiagnosisReport& s) {
     return fmt::format(
         "{}; so does calibration alone, which leaves hardly more than the noise: the cause is "
         "decided by its evidence of {:.0f} nat.",
-        gained, s.evidence_nat);
+        gained, OwnEvidence(s));
   }
   const double beyond = 100.0 * validation.beyond_calibration;
-  return beyond < 0.0 ? fmt::format("{}; the cause adds {:.0f} % to what calibration leaves.",
-                                    gained, -beyond)
-                      : fmt::format("{}; of what calibration leaves, the cause takes {:.0f} %.",
-                                    gained, beyond);
+  return std::lround(beyond) < 0
+             ? fmt::format("{}; the cause adds {:.0f} % to what calibration leaves.", gained,
+                           -beyond)
+             : fmt::format("{}; of what calibration leaves, the cause takes {:.0f} %.", gained,
+                           std::abs(beyond));
 }
 
 std::string NameOf(const DiagnosisReport& s, const std::string& effect) {
@@ -58,7 +61,7 @@ ReportSentences SentencesOf(const DiagnosisReport& s) {
   said.gain = GainSentence(s);
   said.totals = TotalSentences(s.parameters);
   for (const NamedParameter& p : s.parameters) said.brackets.push_back(BracketName(p));
-  for (const CalibratedValue& v : s.calibrated) said.is_significant.push_back(IsSignificant(v));
+  for (const CalibratedValue& v : s.calibrated) said.significant.push_back(IsSignificant(v));
   if (s.forecast) {
     said.forecast_fit = RangeText(s.forecast->fit_percent, 3);
     for (const ReportForecast::Band& band : s.forecast->by_speed) {

@@ -78,6 +78,11 @@ std::string Spectra(const DiagnosisReport& s) {
   return svg::Draw(figure);
 }
 
+/// Empty where the table is.
+std::string FoldedTable(const char* title, const html::Table& table) {
+  return table.empty() ? "" : html::FoldedMarkup(title, table.Html());
+}
+
 std::string Ranking(const DiagnosisReport& s, const ReportSentences& said) {
   constexpr std::size_t kShown = 8;
   html::Table first({{"what"},
@@ -93,7 +98,7 @@ std::string Ranking(const DiagnosisReport& s, const ReportSentences& said) {
               std::isfinite(c.evidence_nat) ? fmt::format("{:.1f}", c.evidence_nat) : "-",
               c.reason});
   }
-  return first.Html() + html::FoldedMarkup("All others that were ruled out", rest.Html());
+  return first.Html() + FoldedTable("All others that were ruled out", rest);
 }
 
 constexpr double kMostLinear = 10.0;  ///< times the noise: longer bars are logarithmic
@@ -141,7 +146,7 @@ std::string CalibrationTable(const DiagnosisReport& s, const ReportSentences& sa
   html::Table rest = significant;
   for (std::size_t i = 0; i < s.calibrated.size(); ++i) {
     const diagnosis::CalibratedValue& v = s.calibrated[i];
-    (said.is_significant[i] ? significant : rest)
+    (said.significant[i] ? significant : rest)
         .Add({v.effect, v.place, v.key, AtPhase(v.nominal, v.nominal_phase_rad),
               AtPhase(v.calibrated, v.phase_rad), fmt::format("{:.2g}", v.deviation),
               fmt::format("{:.2g}", v.tolerance)});
@@ -157,7 +162,7 @@ std::string CalibrationTable(const DiagnosisReport& s, const ReportSentences& sa
          Escaped(causes) + "</p>\n" +
          (significant.empty() ? Paragraph("None is further than half its tolerance from the file.")
                               : significant.Html()) +
-         html::FoldedMarkup("All others", rest.Html());
+         FoldedTable("All others", rest);
 }
 
 /// Seconds, gain and limits in a sentence each.

@@ -66,7 +66,7 @@ void PrintCalibrated(const DiagnosisReport& s, const ReportSentences& said, bool
   const auto& values = s.calibrated;
   std::vector<CalibratedValue> shown;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (complete || said.is_significant[i]) shown.push_back(values[i]);
+    if (complete || said.significant[i]) shown.push_back(values[i]);
   }
   if (!complete && shown.size() > kShown) shown.resize(kShown);
   fmt::print("Calibration: {} numbers in which a healthy rig may differ from its file; ",

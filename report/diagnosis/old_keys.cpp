@@ -13,11 +13,15 @@ void Add(nlohmann::ordered_json& json, const std::string& old_key, const std::st
 }  // namespace
 
 void AddOldKeys(nlohmann::ordered_json& diagnosis) {
-  for (const std::string when : {"before", "calibrated", "after"}) {
-    Add(diagnosis["fit_percent"], "holdout_" + when, "validation_" + when);
+  if (diagnosis.contains("fit_percent")) {
+    for (const std::string when : {"before", "calibrated", "after"}) {
+      Add(diagnosis["fit_percent"], "holdout_" + when, "validation_" + when);
+    }
   }
-  for (nlohmann::ordered_json& candidate : diagnosis["candidates"]) {
-    Add(candidate, "held_out_nat", "validation_nat");
+  if (diagnosis.contains("candidates")) {
+    for (nlohmann::ordered_json& candidate : diagnosis["candidates"]) {
+      Add(candidate, "held_out_nat", "validation_nat");
+    }
   }
   Add(diagnosis, "runs_held_out", "runs_validation");
 }

@@ -8,7 +8,7 @@ namespace levitas::html {
 namespace {
 
 std::string ClassOf(const std::string& style_class) {
-  return style_class.empty() ? "" : fmt::format(" class=\"{}\"", style_class);
+  return style_class.empty() ? "" : fmt::format(" class=\"{}\"", Escaped(style_class));
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #pragma once
 // Parts of a page that are made of text: what is given is text, and stands in the page escaped.
 //
-// Empty    an element without text is left out.
+// Empty    an element without text is left out, but for FoldedMarkup.
 // Thread   any. Failure: none.
 
 #include <string>

@@ -21,7 +21,7 @@ void Table::Add(const std::vector<std::string>& cells, const std::string& row_cl
     throw std::invalid_argument(
         fmt::format("a row of {} cells in a table of {} columns", cells.size(), columns_.size()));
   }
-  rows_ += row_class.empty() ? "<tr>" : fmt::format("<tr class={}>", row_class);
+  rows_ += row_class.empty() ? "<tr>" : fmt::format("<tr class=\"{}\">", Escaped(row_class));
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Kind kind = columns_[i].kind;
     rows_ += fmt::format("<td{}>{}</td>", ClassOf(kind),
@@ -31,7 +31,7 @@ void Table::Add(const std::vector<std::string>& cells, const std::string& row_cl
 }
 
 std::string Table::Html() const {
-  std::string html = id_.empty() ? "<table>\n" : fmt::format("<table id={}>\n", id_);
+  std::string html = id_.empty() ? "<table>\n" : fmt::format("<table id=\"{}\">\n", Escaped(id_));
   if (std::ranges::any_of(columns_, [](const Column& column) { return !column.title.empty(); })) {
     html += "<tr>";
     for (const Column& column : columns_) {

@@ -14,7 +14,7 @@
 #include "session/exchange/csv_rows.hpp"
 #include "session/exchange/mat_rows.hpp"
 #include "session/exchange/measured_data.hpp"
-#include "session/exchange/recording_writer.hpp"
+#include "session/exchange/recording_builder.hpp"
 #include "session/log/packed_log.hpp"
 #include "session/log/session_reader.hpp"
 
@@ -40,7 +40,7 @@ bool MayBeSession(const std::string& start) {
          BeginsPacked(std::vector<std::uint8_t>(start.begin(), start.end()));
 }
 
-void TakeSession(const std::string& path, const RigNumbers& rig, RecordingWriter& columns) {
+void TakeSession(const std::string& path, const RigNumbers& rig, RecordingBuilder& columns) {
   // What is wrong with an empty, absent or damaged file is for the session reader to say.
   const std::string start = StartOf(path);
   if (!start.empty() && !MayBeSession(start)) {
@@ -125,7 +125,7 @@ bool IsSession(const std::string& path) {
 }
 
 Recording LoadRecording(const std::string& path, const configuration::RigFile& rig) {
-  RecordingWriter columns(path, rig.numbers);
+  RecordingBuilder columns(path, rig.numbers);
   const RecordTaker take = [&columns](const cycle::CycleRecord& record) { columns.Take(record); };
   const std::vector<CoilScale> coils = CoilScales(rig.plant, rig.numbers.axes());
   const MeasuredData data{.rig = rig.numbers, .coils = coils};

@@ -46,9 +46,46 @@ std::vector<double> EntryShape(const PlantParameters& parameters, const EffectCo
     case Id::kCrossCoupledStiffness:
     case Id::kStaticLoad:
       return rotor::DeflectionAt(modes, entry.values[0]);
-    default:
+    // No default: the compiler names a new effect here. One of these acts at no place of a shaft.
+    case Id::kExtraDelay:
+    case Id::kDroppedSamples:
+    case Id::kSampleJitter:
+    case Id::kAmplifierBandwidth:
+    case Id::kAmplifierSlew:
+    case Id::kCurrentGain:
+    case Id::kDisplacementStiffness:
+    case Id::kCoilAsymmetry:
+    case Id::kMagneticSaturation:
+    case Id::kHysteresis:
+    case Id::kEddyCurrent:
+    case Id::kAxisRotation:
+    case Id::kSensorGain:
+    case Id::kSensorOffset:
+    case Id::kSensorNonlinearity:
+    case Id::kSensorBandwidth:
+    case Id::kSensorRunout:
+    case Id::kMainsPickup:
+    case Id::kSensorNoise:
+    case Id::kShaftAnisotropy:
+    case Id::kModalFrequency:
+    case Id::kModalDamping:
+    case Id::kGyroscopicInertia:
+    case Id::kRotorMass:
+    case Id::kSupportMode:
+    case Id::kTouchdownRub:
+    case Id::kMeshStiffness:
+    case Id::kMeshStiffnessVariation:
+    case Id::kBacklash:
+    case Id::kMeshFriction:
+    case Id::kTransmissionError:
+    case Id::kGearRunout:
+    case Id::kToothCrack:
+    case Id::kForceConstant:
+    case Id::kCommandOffset:
+    case Id::kMagneticCoupling:
       return {};
   }
+  return {};
 }
 
 void ReserveAxis(const EffectConfig& entry, std::size_t axis, BearingEffects& bearing,

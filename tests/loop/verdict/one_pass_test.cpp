@@ -1,5 +1,5 @@
-// The verdict of a recorded session: what it gathers in its one pass is what a loader of the whole
-// session finds.
+// The verdict of a recorded session: the sensitivity that it measures in its one pass is that of the
+// whole session, loaded for it.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -83,7 +83,7 @@ TEST(Commission, MeasuresTheSensitivityOfTheWholeSession) {
   }
 }
 
-TEST(Commission, SaysOfASessionThatCannotBeMeasuredWhenInTheWholeOfIt) {
+TEST(Commission, RefusesWithTheSameWordsAndTimesAsAWholeRecording) {
   const levitas::test::ScratchFolder folder;
   const std::string path = Session(folder, [](RecordedRun& run) { Excite(run, {0, 1}); });
   const Verdict verdict = Of(path);

@@ -21,11 +21,24 @@ TEST(GainInWords, SaysWhatShareOfTheGainIsReachedAndWhoTakesIt) {
   EXPECT_THAT(SentencesOf(report).gain, HasSubstr("the cause takes 80 %"));
   report.validation.beyond_calibration = -0.1;
   EXPECT_THAT(SentencesOf(report).gain, HasSubstr("the cause adds 10 %"));
+  report.validation.beyond_calibration = -0.001;
+  EXPECT_THAT(SentencesOf(report).gain, HasSubstr("the cause takes"));
 }
 
 TEST(GainInWords, NamesTheEvidenceWhereCalibrationAloneLeavesNothing) {
   DiagnosisReport report = OneCause();
   report.validation.calibration_is_complete = true;
+  EXPECT_THAT(SentencesOf(report).gain, HasSubstr("evidence of 40 nat"));
+}
+
+// Odds and evidence of a report are the first cause's own, wherever they are said.
+TEST(GainInWords, NamesTheFirstCausesEvidenceAndNotThatOfAllTogether) {
+  DiagnosisReport report = OneCause();
+  report.causes.push_back({"sensor_gain", "de_y"});
+  report.evidence_nat = 100.0;
+  report.validation.calibration_is_complete = true;
+  EXPECT_THAT(SentencesOf(report).gain, HasSubstr("evidence of 40 nat"));
+  report.validation.meaningful = false;
   EXPECT_THAT(SentencesOf(report).gain, HasSubstr("evidence of 40 nat"));
 }
 
@@ -80,8 +93,8 @@ TEST(SentencesOf, HaveOnePerParameterValueCandidateAndMark) {
   const ReportSentences said = SentencesOf(report);
   EXPECT_THAT(said.brackets,
               ElementsAre(testing::StrEq("90 % interval"), testing::StrEq("neighbouring forms")));
-  EXPECT_EQ(said.is_significant.size(), 2U);
-  EXPECT_FALSE(said.is_significant[1]);
+  EXPECT_EQ(said.significant.size(), 2U);
+  EXPECT_FALSE(said.significant[1]);
   EXPECT_THAT(said.candidates, ElementsAre(Not(IsEmpty()), "Bent shaft"));
   EXPECT_THAT(said.marks,
               ElementsAre("Crack in the shaft, z = 250 mm", "a place of its own, z = 100 mm"));

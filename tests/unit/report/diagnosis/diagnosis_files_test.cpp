@@ -114,6 +114,9 @@ TEST(OldKeys, ComeOnlyWithTheNewOnes) {
   const nlohmann::ordered_json before = none;
   AddOldKeys(none);
   EXPECT_EQ(none, before);
+  nlohmann::ordered_json empty = nlohmann::ordered_json::object();
+  AddOldKeys(empty);
+  EXPECT_TRUE(empty.empty());
 }
 
 TEST(WriteDiagnosis, WritesTheFourFilesItNames) {

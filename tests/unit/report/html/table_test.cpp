@@ -50,7 +50,7 @@ TEST(Table, MarksARowWithItsClassAndIsFoundByItsName) {
   table.Add({"b"});
   EXPECT_FALSE(table.empty());
   EXPECT_EQ(table.Scrolling(),
-            "<div class=scroll><table id=orbits>\n<tr class=trip><td>a</td></tr>\n"
+            "<div class=scroll><table id=\"orbits\">\n<tr class=\"trip\"><td>a</td></tr>\n"
             "<tr><td>b</td></tr>\n</table>\n</div>\n");
 }
 

@@ -57,7 +57,7 @@ TEST(ReportPage, ShowsTextOfTheSessionAsTextWhateverItHolds) {
   EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
   EXPECT_THAT(page, Not(HasSubstr("<img src=x>")));
   EXPECT_THAT(page, HasSubstr("name: &lt;b&gt;&quot;&amp;"));
-  EXPECT_THAT(page, HasSubstr("<tr class=trip><td class=n>2.000</td><td>TRIP &lt;img"));
+  EXPECT_THAT(page, HasSubstr("<tr class=\"trip\"><td class=n>2.000</td><td>TRIP &lt;img"));
 }
 
 // Before any picture, so that it is what is seen first.

@@ -1,4 +1,4 @@
-#include "session/exchange/recording_writer.hpp"
+#include "session/exchange/recording_builder.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ void AppendUnlessZero(Column& column, double value, std::size_t rows_before) {
 
 }  // namespace
 
-RecordingWriter::RecordingWriter(const std::string& name, const RigNumbers& rig)
+RecordingBuilder::RecordingBuilder(const std::string& name, const RigNumbers& rig)
     : frame_(rig), axes_(rig.axes()) {
   recording_.name = name;
   recording_.period_ns = rig.period_ns;
@@ -31,7 +31,7 @@ RecordingWriter::RecordingWriter(const std::string& name, const RigNumbers& rig)
   }
 }
 
-void RecordingWriter::Take(const cycle::CycleRecord& record) {
+void RecordingBuilder::Take(const cycle::CycleRecord& record) {
   const SensorFrame& frame = record.in.frame;
   const CurrentFrame& command = record.out.current;
   TakeCoils(record.in);
@@ -55,7 +55,7 @@ void RecordingWriter::Take(const cycle::CycleRecord& record) {
   recording_.time_s.push_back(1e-9 * static_cast<double>(frame.sample_time_ns));
 }
 
-Recording RecordingWriter::Finish() {
+Recording RecordingBuilder::Finish() {
   recording_.cycle.shrink_to_fit();
   recording_.levitated.shrink_to_fit();
   recording_.amplifiers_enabled.shrink_to_fit();
@@ -71,7 +71,7 @@ Recording RecordingWriter::Finish() {
 }
 
 // The first record that has coil currents adds their columns; rows without are NaN.
-void RecordingWriter::TakeCoils(const cycle::CycleInputs& in) {
+void RecordingBuilder::TakeCoils(const cycle::CycleInputs& in) {
   auto& coils = recording_.coil_current_a;
   if (in.coils > coils.size()) {
     coils.resize(in.coils, Column(recording_.rows(), std::nan("")));

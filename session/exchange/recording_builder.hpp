@@ -17,16 +17,16 @@
 
 namespace levitas::session {
 
-class RecordingWriter {
+class RecordingBuilder {
  public:
   /// `name` is the recording's, for messages.
-  RecordingWriter(const std::string& name, const RigNumbers& rig);
+  RecordingBuilder(const std::string& name, const RigNumbers& rig);
 
   /// The next row, in the order of the run.
   void Take(const cycle::CycleRecord& record);
   void SetDamage(std::string text) { recording_.damage = std::move(text); }
 
-  /// Gives the recording away, without spare room; the writer is empty then.
+  /// Gives the recording away, without spare room; nothing may be taken afterwards.
   [[nodiscard]] Recording Finish();
 
  private:
