@@ -280,7 +280,7 @@ std::string Advice(const DiagnosisReport& s, const ReportSentences& said) {
   html::Table advice({{"", Kind::kKey}, {}}, "advice");
   for (const auto& [name, text] : {std::pair{"What it does", s.severity_sentence},
                                    {"Action", s.action},
-                                   {"Compare", HealthyProposal(s)},
+                                   {"Compare", HealthyProposalText(s)},
                                    {"Further records", FurtherRecords(s)}}) {
     if (!text.empty()) advice.Add({name, text});
   }

@@ -30,7 +30,7 @@ void PrintAdvice(const DiagnosisReport& s) {
   fmt::print("{}\n", s.headline);
   if (!s.severity_sentence.empty()) fmt::print("What it does: {}\n", s.severity_sentence);
   fmt::print("Action: {}\n", s.action);
-  const std::string healthy = HealthyProposal(s);
+  const std::string healthy = HealthyProposalText(s);
   if (!healthy.empty()) fmt::print("{}\n", healthy);
   fmt::print("\n");
 }
@@ -229,7 +229,7 @@ std::string ErrorSharesSentence(const DiagnosisReport& s) {
                      fmt::join(parts, ", "));
 }
 
-std::string HealthyProposal(const DiagnosisReport& s) {
+std::string HealthyProposalText(const DiagnosisReport& s) {
   if (s.healthy_proposal.empty() || s.healthy_record.empty()) return s.healthy_proposal;
   return fmt::format("{} The last accepted session of this rig: --healthy {}", s.healthy_proposal,
                      s.healthy_record);

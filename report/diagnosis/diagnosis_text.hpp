@@ -31,7 +31,7 @@ struct SharedParameter {
 /// What to record next; empty hands are said with what they are enough for.
 [[nodiscard]] std::string FurtherRecords(const diagnosis::DiagnosisReport& report);
 /// With the session that was found for it; empty where none is proposed.
-[[nodiscard]] std::string HealthyProposal(const diagnosis::DiagnosisReport& report);
+[[nodiscard]] std::string HealthyProposalText(const diagnosis::DiagnosisReport& report);
 /// Who makes how much of the rig file's error, the largest first; empty where there is none.
 [[nodiscard]] std::string ErrorSharesSentence(const diagnosis::DiagnosisReport& report);
 /// Why a fit can lie above its ceiling, or the calibrated rig's below the rig file's; empty where

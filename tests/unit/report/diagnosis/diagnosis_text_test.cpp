@@ -84,13 +84,13 @@ TEST(FurtherRecords, SayWhatTheyAreNotNeededFor) {
   EXPECT_EQ(FurtherRecords(report), "none needed");
 }
 
-TEST(HealthyProposal, NamesTheSessionThatWasFound) {
+TEST(HealthyProposalText, NamesTheSessionThatWasFound) {
   DiagnosisReport report = OneCause();
-  EXPECT_EQ(HealthyProposal(report), "");
+  EXPECT_EQ(HealthyProposalText(report), "");
   report.healthy_proposal = "Compare.";
-  EXPECT_EQ(HealthyProposal(report), "Compare.");
+  EXPECT_EQ(HealthyProposalText(report), "Compare.");
   report.healthy_record = "/data/good.lcm";
-  EXPECT_THAT(HealthyProposal(report), HasSubstr("--healthy /data/good.lcm"));
+  EXPECT_THAT(HealthyProposalText(report), HasSubstr("--healthy /data/good.lcm"));
 }
 
 class Printed : public testing::Test {
