@@ -1,8 +1,8 @@
 #pragma once
 // What crosses the boundary between controller and rig, once per period, as plain data.
 //
-// Frame   axes and their order are those of the rig file's bearing frame (x, y per bearing; positive
-//         x towards the coil that a positive control current strengthens), scaled by the port.
+// Frame   axes and order are those of the rig file's bearing frame (x, y per bearing; positive x
+//         towards the coil that a positive control current strengthens), scaled by the port.
 //         Signs are as wired: controller/cycle and every reader of records remove the polarity.
 // Units   SI, named in the identifiers.
 // Time    `cycle` is the integer number of the period; `_ns` is CLOCK_MONOTONIC in real time and

@@ -21,32 +21,20 @@ bool OfTheTrain(const PlantParameters& parameters, const EffectConfig& entry) {
   return entry.id == Id::kMisalignment && !parameters.config.shafts.empty();
 }
 
-std::vector<double> EntryShape(const PlantParameters& parameters, const EffectConfig& entry) {
-  if (OfTheTrain(parameters, entry)) return {};
-  const rotor::ModalRotor& modes = parameters.modes;
-  switch (entry.id) {
+/// Whether an entry acts by a shape of the shaft, at a place or of a mode. No default: the compiler
+/// names a new effect here, whose shape and state are made below.
+bool ActsOnShaft(Id id) {
+  switch (id) {
     case Id::kShaftBow:
-      // The largest deflection that a unit of this mode makes anywhere on the shaft.
-      return {modes.shapes.col(static_cast<Eigen::Index>(FlexibleMode(parameters, entry)))
-                  .cwiseAbs()
-                  .maxCoeff()};
     case Id::kSensorPosition:
-      return rotor::DeflectionAt(
-          modes, parameters.config.bearings[entry.bearing].sensor_z_m + entry.values[0]);
     case Id::kBreathingCrack:
-      return rotor::CurvatureAt(modes, entry.values[0]);
-    case Id::kInternalDamping: {
-      auto bending = rotor::DeflectionAt(modes, entry.values[0]);
-      std::fill_n(bending.begin(), modes.rigid_modes, 0.0);
-      return bending;
-    }
+    case Id::kInternalDamping:
     case Id::kUnbalance:
     case Id::kMisalignment:
     case Id::kCouplingStiffness:
     case Id::kCrossCoupledStiffness:
     case Id::kStaticLoad:
-      return rotor::DeflectionAt(modes, entry.values[0]);
-    // No default: the compiler names a new effect here. One of these acts at no place of a shaft.
+      return true;
     case Id::kExtraDelay:
     case Id::kDroppedSamples:
     case Id::kSampleJitter:
@@ -83,9 +71,39 @@ std::vector<double> EntryShape(const PlantParameters& parameters, const EffectCo
     case Id::kForceConstant:
     case Id::kCommandOffset:
     case Id::kMagneticCoupling:
+      return false;
+  }
+  return false;
+}
+
+std::vector<double> EntryShape(const PlantParameters& parameters, const EffectConfig& entry) {
+  if (OfTheTrain(parameters, entry) || !ActsOnShaft(entry.id)) return {};
+  const rotor::ModalRotor& modes = parameters.modes;
+  switch (entry.id) {
+    case Id::kShaftBow:
+      // The largest deflection that a unit of this mode makes anywhere on the shaft.
+      return {modes.shapes.col(static_cast<Eigen::Index>(FlexibleMode(parameters, entry)))
+                  .cwiseAbs()
+                  .maxCoeff()};
+    case Id::kSensorPosition:
+      return rotor::DeflectionAt(
+          modes, parameters.config.bearings[entry.bearing].sensor_z_m + entry.values[0]);
+    case Id::kBreathingCrack:
+      return rotor::CurvatureAt(modes, entry.values[0]);
+    case Id::kInternalDamping: {
+      auto bending = rotor::DeflectionAt(modes, entry.values[0]);
+      std::fill_n(bending.begin(), modes.rigid_modes, 0.0);
+      return bending;
+    }
+    case Id::kUnbalance:
+    case Id::kMisalignment:
+    case Id::kCouplingStiffness:
+    case Id::kCrossCoupledStiffness:
+    case Id::kStaticLoad:
+      return rotor::DeflectionAt(modes, entry.values[0]);
+    default:  // at no place of a shaft: ActsOnShaft()
       return {};
   }
-  return {};
 }
 
 void ReserveAxis(const EffectConfig& entry, std::size_t axis, BearingEffects& bearing,

@@ -1,5 +1,5 @@
-// The verdict of a recorded session: the sensitivity that it measures in its one pass is that of the
-// whole session, loaded for it.
+// The verdict of a recorded session: the sensitivity that it measures in its one pass is that of
+// the whole session, loaded for it.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
