@@ -81,7 +81,7 @@ class Report(CommandTest):
         page = (self.folder / "r.html").read_text(encoding="utf-8")
         self.assertIn("sensitivity_0_rpm", told["pictures"])
         self.assertIn("campbell", told["pictures"])
-        self.assertLess(page.index("<table id=sensitivity"), page.index("<figure"))
+        self.assertLess(page.index("<table id=\"sensitivity\""), page.index("<figure"))
         for axis in told["judgement"]["sensitivity"][0]["axes"]:
             self.assertIn(f"<td>{axis['axis']}</td><td class=n>{axis['peak']:.3f}</td>", page)
         self.assertGreater(len(told["critical_speeds"]), 0)
