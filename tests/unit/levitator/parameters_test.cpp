@@ -1,0 +1,57 @@
+// The table of parameters of a ball between two magnets, and where their values stand.
+
+#include "diagnosis/levitator/parameters.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+#include <utility>
+
+namespace levitas::levitator {
+namespace {
+
+TEST(ParameterTable, HasItsRowsInTheOrderOfTheirNames) {
+  EXPECT_EQ(Table().size(), static_cast<std::size_t>(kParameters));
+  EXPECT_EQ(At(kDelay).effect, "extra_delay");
+  EXPECT_EQ(At(kAwayInductance).name, "ratio_away");
+  EXPECT_EQ(At(kProbeGain).effect, "current_sensor_gain");
+  EXPECT_EQ(At(kForce).effect, "current_gain");
+  EXPECT_EQ(At(kForceAway).effect, "coil_asymmetry");
+  EXPECT_EQ(At(kSensorCube).name, "a3");
+  EXPECT_EQ(At(kMass).effect, "rotor_mass");
+  EXPECT_EQ(At(kSpring).effect, "coupling_stiffness");
+}
+
+// The rig file is 0, so every bound must let it through; a ratio of -1 would be no coil at all.
+TEST(ParameterTable, LetsEveryRigFileBeHealthyAndEveryCauseBeLargerThanItsTolerance) {
+  std::set<std::pair<std::string, std::string>> names;
+  for (const Row& row : Table()) {
+    EXPECT_LE(row.least, 0.0) << row.effect;
+    EXPECT_GE(row.tolerance, 0.0) << row.effect;
+    EXPECT_GT(row.wide, row.tolerance) << row.effect;
+    if (row.name.starts_with("ratio")) {
+      EXPECT_GT(row.least, -1.0) << row.effect;
+    }
+    EXPECT_TRUE(names.emplace(row.effect, row.name).second) << row.effect << " twice";
+  }
+}
+
+TEST(ParameterTable, KeepsTheNumbersOfEachRecordApartBehindTheCommonOnes) {
+  constexpr std::size_t kRecords = 3;
+  const Theta zeros = Zeros(kRecords);
+  std::set<std::size_t> places;
+  for (std::size_t record = 0; record < kRecords; ++record) {
+    for (const OwnParameter own : {kOwnResistance, kOwnOffset}) {
+      const std::size_t at = Own(record, own);
+      EXPECT_GE(at, static_cast<std::size_t>(kParameters));
+      EXPECT_LT(at, zeros.size());
+      EXPECT_TRUE(places.insert(at).second) << "one place for two numbers";
+    }
+  }
+  EXPECT_EQ(zeros.size(), static_cast<std::size_t>(kParameters) + 2 * kRecords);
+  EXPECT_EQ(zeros, Theta(zeros.size(), 0.0));
+}
+
+}  // namespace
+}  // namespace levitas::levitator

@@ -1,0 +1,47 @@
+// Words of the workshop for a ball: there for every parameter, and about parameters that exist.
+
+#include "diagnosis/levitator/words.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "diagnosis/levitator/parameters.hpp"
+
+namespace levitas::levitator {
+namespace {
+
+bool HasOwnWords(std::string_view effect) {
+  return std::ranges::any_of(OwnWords(),
+                             [&](const effect::Words& words) { return words.effect == effect; });
+}
+
+TEST(OwnWords, LeaveNoEffectOfTheTableWithoutWords) {
+  for (const Row& row : Table()) {
+    EXPECT_TRUE(HasOwnWords(row.effect) || effect::FindWords(row.effect) != nullptr) << row.effect;
+  }
+}
+
+TEST(OwnWords, AreSaidOnceOfEffectsOfTheTableWithTheStemOfAParameterAsSize) {
+  std::set<std::string_view> said;
+  for (const effect::Words& words : OwnWords()) {
+    EXPECT_TRUE(said.insert(words.effect).second) << words.effect << " twice";
+    EXPECT_TRUE(std::ranges::any_of(Table(), [&](const Row& row) {
+      return row.effect == words.effect && row.name.starts_with(words.size);
+    })) << words.effect;
+  }
+}
+
+// A factor is above or below 1, and people hear which; all else has one name.
+TEST(OwnWords, HaveTwoNamesWhereTheSizeIsAFactorAndSentencesForWhatToDo) {
+  for (const effect::Words& words : OwnWords()) {
+    EXPECT_EQ(words.opposite.empty(), words.form != effect::SizeForm::kOff) << words.effect;
+    EXPECT_NE(words.name, words.opposite) << words.effect;
+    EXPECT_TRUE(words.does.ends_with('.')) << words.effect;
+    EXPECT_TRUE(words.check.ends_with('.')) << words.effect;
+  }
+}
+
+}  // namespace
+}  // namespace levitas::levitator
