@@ -5,8 +5,8 @@
 // Size    that of the catalogue, `clear` (`amb effects ID`), what shows clearly on a laboratory
 //         rig, at a strength from 0 to 1 (strength.hpp).
 // Place   channels: the first one; a bearing: the first; a mode: the first bending; a plane: that
-//         of the first disc, or what the file's unbalance refers to, else the middle between the
-//         bearings.
+//         of the middle disc of the rig file's list, and without discs the catalogue's share of
+//         the shaft.
 // Thread  any; pure.
 
 #include <optional>

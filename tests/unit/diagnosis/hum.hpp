@@ -7,7 +7,6 @@
 #include <numbers>
 #include <vector>
 
-#include "diagnosis/inference/record_landscape.hpp"
 #include "tests/unit/diagnosis/moments.hpp"
 
 namespace levitas::diagnosis {
@@ -47,38 +46,6 @@ inline Record HumRecord(double amplitude_m, std::size_t rows = kHumRows) {
     row.sample.position_m[0] += amplitude_m * std::cos(2.0 * std::numbers::pi * kHumHz * time_s);
   }
   return record;
-}
-
-/// The terms of the hum, axis by axis cosine and sine, and the zero of one probe to calibrate.
-inline std::vector<Term> HumTerms() {
-  std::vector<Term> terms = MainsTerms(WeightlessView(), {kHumHz}, 1);
-  const Tolerances tolerances = WeightlessRotor().tolerances.value_or(Tolerances{});
-  terms.push_back(Named(AllTerms(WeightlessView(), tolerances, 50e-6), "sensor_offset", "nde_y"));
-  return terms;
-}
-
-/// A search at its beginning: nothing calibrated, no cause.
-struct HumSearch {
-  explicit HumSearch(double amplitude_m)
-      : records{HumRecord(amplitude_m)},
-        landscape(WeightlessView(), records, settings, rules.effort, terms) {
-    found.theta = found.calibrated = landscape.search().HealthyParameters();
-    landscape.LineariseAt(found.theta);
-  }
-
-  [[nodiscard]] double AmplitudeOnDeX() const { return std::hypot(found.theta[0], found.theta[1]); }
-
-  SelectionRules rules{Judging{}, Effort{40, 6, 8, 5, 100'000, false}, 3};
-  std::vector<Record> records;
-  Settings settings;
-  std::vector<Term> terms = HumTerms();
-  RecordLandscape landscape;
-  CauseSelection found;
-};
-
-/// [m] five standard deviations of an amplitude in white noise, s sqrt(2/n): once in a million.
-inline double HumTolerance() {
-  return 5.0 * kHumNoise * std::sqrt(2.0 / static_cast<double>(kHumRows - kHumSettling));
 }
 
 }  // namespace levitas::diagnosis
