@@ -72,7 +72,7 @@ class Tests(unittest.TestCase):
     """How much of the C++ is tests, and which headers none of them names."""
 
     AIM = 0.8
-    LEAST = 0.59  # as far as it has come: it only grows
+    LEAST = 0.6  # as far as it has come: it only grows
 
     # Rooms of which every header with something to be tested is in a test, and what is proven
     # otherwise.
