@@ -39,7 +39,7 @@ constexpr const char* kStyle =
     "margin:1em "
     "0}.bar{background:#eee;"
     "width:24em}"
-    ".bar div{height:1em}summary{cursor:pointer;padding:.4em 0}";
+    ".bar div{height:1em}.warning{font-weight:bold}summary{cursor:pointer;padding:.4em 0}";
 
 using html::Escaped;
 using html::Kind;
@@ -258,7 +258,7 @@ std::string RunsTable(const DiagnosisReport& s) {
 
 /// Above the verdict; empty when the records are in order.
 std::string ErrorsOfRecords(const ReportSentences& said) {
-  const std::string html = Paragraphs(said.record_errors, "verdict");
+  const std::string html = Paragraphs(said.record_errors, "verdict warning");
   return html.empty() ? "" : html + Paragraph(diagnosis::kAsMended);
 }
 
@@ -324,8 +324,8 @@ std::string DiagnosisPage(const DiagnosisReport& s) {
           FitRemarks(s)) +
       Paragraph(ErrorSharesSentence(s));
   return head + Origin(s) + ErrorsOfRecords(said) + Advice(s, said) + detail +
-         Paragraphs(s.levitation.sentences) + Left(s) + Spectra(s) + ParameterTable(s, said) +
-         CalibrationTable(s, said) + ForecastSection(s, said) +
+         Paragraphs(s.levitation.sentences, "warning") + Left(s) + Spectra(s) +
+         ParameterTable(s, said) + CalibrationTable(s, said) + ForecastSection(s, said) +
          "<h2>Ranking, and why not the others</h2>\n" + Ranking(s, said) + fit + ChannelTable(s) +
          RunsTable(s) + "</body></html>\n";
 }

@@ -35,13 +35,6 @@ void PrintAdvice(const DiagnosisReport& s) {
   fmt::print("\n");
 }
 
-/// " (110 to 130, 90 % interval)"; nothing where the value has no bracket.
-std::string BracketText(const SharedParameter& shared) {
-  const NamedParameter& p = shared.parameter;
-  if (p.low == p.high) return {};
-  return fmt::format(" ({:.4g} to {:.4g}, {})", p.low, p.high, shared.bracket);
-}
-
 void PrintParameters(const DiagnosisReport& s, const ReportSentences& said) {
   const auto parameters = SharedParameters(s, said);
   if (parameters.empty()) return;
@@ -50,8 +43,8 @@ void PrintParameters(const DiagnosisReport& s, const ReportSentences& said) {
   for (const SharedParameter& shared : parameters) {
     const NamedParameter& p = shared.parameter;
     const std::string unit = p.unit.empty() ? "" : " " + p.unit;
-    fmt::print("  {} {}: {:.5g}{}{}, {}\n", p.effect, p.key, p.value, unit, BracketText(shared),
-               shared.places);
+    fmt::print("  {} {}: {:.5g}{}{}, {}\n", p.effect, p.key, p.value, unit,
+               diagnosis::BracketText(p), shared.places);
     form = form || p.form;
   }
   if (form) {

@@ -1,4 +1,5 @@
-// Which difference is told, and how; that every field is compared is in replay_test.cpp.
+// Which difference is named, and in which words. That every field is compared, replay_test.cpp
+// shows.
 
 #include "session/replay/output_difference.hpp"
 

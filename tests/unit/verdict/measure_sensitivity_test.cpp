@@ -36,7 +36,7 @@ Recording AfterQuiet(Recording r, std::size_t rows) {
   return r;
 }
 
-/// What the verdict keeps of it: the first row, then all from the first test signal on.
+/// The rows of a record that the verdict keeps: the first, and all from the first test signal on.
 Recording Kept(const Recording& r, std::size_t quiet_rows) {
   Recording kept = AfterQuiet(r, 1);
   for (std::size_t row = 1; row < kept.rows(); ++row) kept.cycle[row] += quiet_rows - 1;
