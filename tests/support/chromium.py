@@ -19,6 +19,10 @@ def find():
     return shutil.which("chromium") or shutil.which("chromium-browser")
 
 
+class LoadedAgain(AssertionError):
+    """The page was loaded anew while it was asked."""
+
+
 class Browser:
     def __init__(self, width=1280, height=720):
         self.profile = tempfile.TemporaryDirectory()
@@ -81,6 +85,8 @@ class Browser:
         while True:
             message = self._message()
             if message.get("id") == self.number:
+                if "navigated" in message.get("error", {}).get("message", ""):
+                    raise LoadedAgain(method)
                 if "error" in message:
                     raise AssertionError(f"{method}: {message['error']}")
                 return message["result"]
@@ -96,13 +102,18 @@ class Browser:
         elif message.get("method") == "Log.entryAdded" and what["entry"]["level"] == "error":
             self.problems.append((session, what["entry"]["text"] + " " + what["entry"].get("url", "")))
 
-    def open(self, url, width=1280, height=720, phone=False, before=None):
-        """A new page; its handle. The script `before` runs in it before its own."""
+    def blank(self):
+        """A new page that shows nothing yet; its handle."""
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
         session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         page = Page(self, session, target)
         for domain in ("Page", "Runtime", "Log"):
             page.call(f"{domain}.enable")
+        return page
+
+    def open(self, url, width=1280, height=720, phone=False, before=None):
+        """A new page; its handle. The script `before` runs in it before its own."""
+        page = self.blank()
         page.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
                   deviceScaleFactor=1, mobile=phone)
         if before:
@@ -127,6 +138,11 @@ class Page:
         return [text for session, text in self.browser.problems if session == self.session
                 and not ("net::ERR_" in text and "/events" in text)]
 
+    def refuse(self, *urls):
+        """Requests for these addresses (* stands for any text) fail from now on; no others."""
+        self.call("Network.enable")
+        self.call("Network.setBlockedURLs", urls=list(urls))
+
     def close(self):
         self.browser.call("Target.closeTarget", targetId=self.target)
 
@@ -142,8 +158,14 @@ class Page:
 
     def until(self, expression):
         """Waits until the expression is true; a time-out is a failure."""
-        until(lambda: self.value(expression), expression,
-              lambda: self.value("document.body.innerText"))
+        def holds():
+            try:
+                return self.value(expression)
+            except LoadedAgain:
+                return False
+
+        until(holds, expression,
+              lambda: "\n".join([self.value("document.body.innerText"), *self.problems()]))
 
     def press(self, key):
         for kind in ("keyDown", "keyUp"):

@@ -109,6 +109,18 @@ class ThePage(unittest.TestCase):
         before = page.value("document.getElementById('time').textContent")
         page.until(f"document.getElementById('time').textContent != {before!r}")
 
+    def test_is_loaded_again_when_one_of_its_parts_did_not_arrive(self):
+        rig = Rig(self)
+        page = self.browser.blank()
+        self.addCleanup(page.close)
+        page.refuse("*/plot.js")
+        page.call("Page.addScriptToEvaluateOnNewDocument",
+                  source="sessionStorage.loads = 1 + Number(sessionStorage.loads ?? 0);")
+        page.call("Page.navigate", url=rig.url)
+        page.until("Number(sessionStorage.loads) > 1")
+        page.refuse()
+        page.until(f"{MODE} == 'off'")
+
     def test_serves_two_viewers_the_same_run(self):
         rig, page = self.rig_and_page()
         other = self.open(rig)
