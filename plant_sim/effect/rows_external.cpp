@@ -1,5 +1,6 @@
 // Catalogue: what acts on the rotor from outside, and the supports.
 #include "plant_sim/effect/parameter_kinds.hpp"
+#include "plant_sim/effect/placed_id.hpp"
 
 namespace levitas::effect {
 namespace {
@@ -94,6 +95,8 @@ constexpr std::array kExternalRows{
         "Muszynska 1989, Shock Vib. Digest 21(3) 3",
         Facts{.repeats = true, .shows_in = Shows::kSpectrum}},
 };
+
+static_assert(AreAtTheirPlaces(kExternalRows));
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 // Catalogue: the teeth between geared shafts. The force law is gear::MeshLaw.
 #include "plant_sim/effect/parameter_kinds.hpp"
+#include "plant_sim/effect/placed_id.hpp"
 
 namespace levitas::effect {
 namespace {
@@ -93,6 +94,8 @@ constexpr std::array kGearRows{
         "Chaari, Fakhfakh & Haddar 2009, Eur. J. Mech. A/Solids 28(3) 461",
         Facts{.repeats = true, .needs_rotation = true, .shows_in = Shows::kGearMesh}},
 };
+
+static_assert(AreAtTheirPlaces(kGearRows));
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 // Catalogue: timing and amplifiers.
 #include "plant_sim/effect/parameter_kinds.hpp"
+#include "plant_sim/effect/placed_id.hpp"
 
 namespace levitas::effect {
 namespace {
@@ -57,6 +58,8 @@ constexpr std::array kLoopRows{
         "Maslen, Hermann, Scott & Humphris 1989, ASME J. Tribology 111(2) 331",
         Facts{.shows_in = Shows::kForce}},
 };
+
+static_assert(AreAtTheirPlaces(kLoopRows));
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 // Catalogue: magnets.
 #include "plant_sim/effect/parameter_kinds.hpp"
+#include "plant_sim/effect/placed_id.hpp"
 
 namespace levitas::effect {
 namespace {
@@ -109,6 +110,8 @@ constexpr std::array kMagnetRows{
         "ISO 14839-1; Schweitzer & Maslen 2009, Magnetic Bearings, ch. 7",
         Facts{.shows_in = Shows::kResponse, .modes = Modes::kOnTheLoop}},
 };
+
+static_assert(AreAtTheirPlaces(kMagnetRows));
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 // Catalogue: rotor.
 #include "plant_sim/effect/parameter_kinds.hpp"
+#include "plant_sim/effect/placed_id.hpp"
 
 namespace levitas::effect {
 namespace {
@@ -101,6 +102,8 @@ constexpr std::array kRotorRows{
               .shows_in = Shows::kSpectrum,
               .modes = Modes::kTurning}},
 };
+
+static_assert(AreAtTheirPlaces(kRotorRows));
 
 }  // namespace
 

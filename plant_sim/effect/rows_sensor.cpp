@@ -1,5 +1,6 @@
 // Catalogue: sensors.
 #include "plant_sim/effect/parameter_kinds.hpp"
+#include "plant_sim/effect/placed_id.hpp"
 
 namespace levitas::effect {
 namespace {
@@ -89,6 +90,8 @@ constexpr std::array kSensorRows{
         "noise floor of the reading: level rms^2, slope above the corner",
         "Kasdin 1995, Proc. IEEE 83(5) 802", Facts{.shows_in = Shows::kSpectrum}},
 };
+
+static_assert(AreAtTheirPlaces(kSensorRows));
 
 }  // namespace
 
