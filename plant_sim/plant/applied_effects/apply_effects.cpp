@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "plant_sim/effect/parameter_kinds.hpp"
+#include "plant_sim/effect/placed_id.hpp"
 #include "plant_sim/effect/strength.hpp"
 #include "plant_sim/plant/coils_of.hpp"
 
@@ -73,6 +75,73 @@ std::size_t FirstAxis(const EffectConfig& entry) noexcept {
   return 0;
 }
 
+constexpr Eigen::Index kNoMode = -1;
+
+/// The first parameter's value that the rig has without the effect; NaN where it has none. No
+/// default where a rig has some: the compiler names a new effect there.
+struct OwnValue {
+  const BearingConfig& bearing;
+  const rotor::ModalRotor& modes;
+  Eigen::Index mode{kNoMode};
+
+  // These count from 0, 1 or infinity; those of gears, see OwnValues().
+  double operator()(effect::TimingId /*id*/) const noexcept { return effect::kOwn; }
+  double operator()(effect::MagnetId /*id*/) const noexcept { return effect::kOwn; }
+  double operator()(effect::SupportId /*id*/) const noexcept { return effect::kOwn; }
+  double operator()(effect::ExternalId /*id*/) const noexcept { return effect::kOwn; }
+  double operator()(effect::GearId /*id*/) const noexcept { return effect::kOwn; }
+
+  double operator()(effect::AmplifierId id) const noexcept {
+    using effect::AmplifierId;
+    switch (id) {
+      case AmplifierId::kAmplifierBandwidth:
+        return bearing.amplifier.bandwidth_hz;
+      case AmplifierId::kAmplifierSlew:
+      case AmplifierId::kCurrentGain:
+      case AmplifierId::kCommandOffset:
+        break;
+    }
+    return effect::kOwn;
+  }
+
+  double operator()(effect::SensorId id) const noexcept {
+    using effect::SensorId;
+    switch (id) {
+      case SensorId::kSensorBandwidth:
+        return bearing.sensor.bandwidth_hz;
+      case SensorId::kSensorNoise:
+        return bearing.sensor.noise_rms_m;
+      case SensorId::kSensorGain:
+      case SensorId::kSensorOffset:
+      case SensorId::kSensorNonlinearity:
+      case SensorId::kSensorPosition:
+      case SensorId::kSensorRunout:
+      case SensorId::kMainsPickup:
+        break;
+    }
+    return effect::kOwn;
+  }
+
+  double operator()(effect::RotorId id) const noexcept {
+    using effect::RotorId;
+    switch (id) {
+      case RotorId::kModalFrequency:
+        return mode == kNoMode ? effect::kOwn : modes.frequency_rad_per_s[mode] / effect::kTurn;
+      case RotorId::kModalDamping:
+        return mode == kNoMode ? effect::kOwn : modes.damping_ratio[mode];
+      case RotorId::kUnbalance:
+      case RotorId::kShaftBow:
+      case RotorId::kShaftAnisotropy:
+      case RotorId::kGyroscopicInertia:
+      case RotorId::kInternalDamping:
+      case RotorId::kRotorMass:
+      case RotorId::kBreathingCrack:
+        break;
+    }
+    return effect::kOwn;
+  }
+};
+
 }  // namespace
 
 Values ValuesAt(const PlantParameters& parameters, const EffectConfig& entry, std::size_t axis,
@@ -101,25 +170,8 @@ Values OwnValues(const PlantParameters& parameters, const EffectConfig& entry,
   const BearingConfig& b = parameters.config.bearings[bearing];
   const auto mode = static_cast<Eigen::Index>(FlexibleMode(parameters, entry));
   const bool has_mode = mode < parameters.modes.frequency_rad_per_s.size();
-  switch (entry.id) {
-    case Id::kAmplifierBandwidth:
-      own[0] = b.amplifier.bandwidth_hz;
-      break;
-    case Id::kSensorBandwidth:
-      own[0] = b.sensor.bandwidth_hz;
-      break;
-    case Id::kSensorNoise:
-      own[0] = b.sensor.noise_rms_m;
-      break;
-    case Id::kModalFrequency:
-      if (has_mode) own[0] = parameters.modes.frequency_rad_per_s[mode] / effect::kTurn;
-      break;
-    case Id::kModalDamping:
-      if (has_mode) own[0] = parameters.modes.damping_ratio[mode];
-      break;
-    default:
-      break;
-  }
+  own[0] = std::visit(OwnValue{b, parameters.modes, has_mode ? mode : kNoMode},
+                      effect::Placed(entry.id));
   return own;
 }
 

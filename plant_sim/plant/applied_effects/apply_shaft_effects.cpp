@@ -3,16 +3,20 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <variant>
 
 #include "plant_sim/effect/catalogue.hpp"
 #include "plant_sim/effect/crack.hpp"
+#include "plant_sim/effect/placed_id.hpp"
 #include "plant_sim/plant/applied_effects/apply_effects.hpp"
 
 namespace levitas::plant {
 namespace {
 
 using effect::EffectConfig;
-using effect::Id;
+using effect::ExternalId;
+using effect::RotorId;
+using effect::SupportId;
 
 // Rigid modes of a rotor `mass_ratio` times as heavy, mass-normalised.
 void Store(const std::vector<double>& shape, const RigNow& now, std::vector<double>& to) noexcept {
@@ -91,54 +95,71 @@ void ApplySupportMode(const Values& values, BearingEffects& bearing) noexcept {
   bearing.housing_damping_ratio = values[2];
 }
 
+void ApplyToSupport(SupportId id, const EffectConfig& entry, const Values& values,
+                    EffectModel& model, Slots& slots) noexcept {
+  BearingEffects& bearing = model.bearings[entry.bearing];
+  switch (id) {
+    case SupportId::kSupportMode:
+      ApplySupportMode(values, bearing);
+      break;
+    case SupportId::kTouchdownRub:
+      ApplyRub(values, bearing.rubs[slots.rub[entry.bearing]++]);
+      break;
+  }
+}
+
 }  // namespace
 
 void ApplyToRotor(const PlantParameters& parameters, const EffectConfig& entry,
                   const Values& values, const std::vector<double>& shape, RigNow& now,
                   EffectModel& model, Slots& slots) noexcept {
   const std::size_t mode = FlexibleMode(parameters, entry);
-  switch (entry.id) {
-    case Id::kUnbalance:
+  switch (std::get<RotorId>(effect::Placed(entry.id))) {
+    case RotorId::kUnbalance:
       ApplyUnbalance(values, shape, now);
       break;
-    case Id::kShaftBow: {
+    case RotorId::kShaftBow: {
       // Deflection per unit modal coordinate is largest at shape[0].
       const std::complex<double> bow = std::polar(values[0] / shape[0], values[1]);
       model.bow[mode] += bow.real();
       model.bow[model.bow.size() / 2 + mode] += bow.imag();
       break;
     }
-    case Id::kShaftAnisotropy:
+    case RotorId::kShaftAnisotropy:
       model.anisotropy += std::polar(values[0], 2.0 * values[1]);
       break;
-    case Id::kModalFrequency:
+    case RotorId::kModalFrequency:
       // At its own value the bits stay: Hz and back would round.
       if (values[0] == OwnValues(parameters, entry, 0)[0]) break;
       now.frequency_rad_per_s[mode] = 2.0 * std::numbers::pi * values[0];
       break;
-    case Id::kModalDamping:
+    case RotorId::kModalDamping:
       now.damping_ratio[mode] = values[0];
       break;
-    case Id::kGyroscopicInertia:
+    case RotorId::kGyroscopicInertia:
       now.gyroscopic_ratio *= values[0];
       break;
-    case Id::kInternalDamping: {
+    case RotorId::kInternalDamping: {
       RotatingDamper& damper = model.dampers[slots.damper++];
       damper.damping_n_s_per_m = values[1];
       std::copy(shape.begin(), shape.end(), damper.shape.begin());
       break;
     }
-    case Id::kBreathingCrack:
+    case RotorId::kBreathingCrack:
       ApplyCrack(parameters, values, shape, model.cracks[slots.crack++]);
       break;
-    default:
-      break;
+    case RotorId::kRotorMass:
+      break;  // before all others: ApplyRotorMass()
   }
 }
 
 void ApplyFromOutside(const EffectConfig& entry, const Values& values,
                       const std::vector<double>& shape, RigNow& now, EffectModel& model,
                       Slots& slots) noexcept {
+  const effect::PlacedId placed = effect::Placed(entry.id);
+  if (const auto* of_support = std::get_if<SupportId>(&placed)) {
+    return ApplyToSupport(*of_support, entry, values, model, slots);
+  }
   const auto spring = [&](double xx, double xy, double yx) {
     PlaneSpring& to = model.springs[slots.spring++];
     Store(shape, now, to.shape);
@@ -146,27 +167,19 @@ void ApplyFromOutside(const EffectConfig& entry, const Values& values,
     to.xy = xy;
     to.yx = yx;
   };
-  switch (entry.id) {
-    case Id::kMisalignment:
+  switch (std::get<ExternalId>(placed)) {
+    case ExternalId::kMisalignment:
       if (shape.empty()) break;  // of geared shafts, coupling_effects.hpp
       ApplyMisalignment(values, shape, now, model.order_forces[slots.order_force++]);
       break;
-    case Id::kCouplingStiffness:
+    case ExternalId::kCouplingStiffness:
       spring(values[1], values[2], values[2]);
       break;
-    case Id::kCrossCoupledStiffness:
+    case ExternalId::kCrossCoupledStiffness:
       spring(0.0, values[1], -values[1]);
       break;
-    case Id::kStaticLoad:
+    case ExternalId::kStaticLoad:
       ApplyStaticLoad(values, shape, now);
-      break;
-    case Id::kSupportMode:
-      ApplySupportMode(values, model.bearings[entry.bearing]);
-      break;
-    case Id::kTouchdownRub:
-      ApplyRub(values, model.bearings[entry.bearing].rubs[slots.rub[entry.bearing]++]);
-      break;
-    default:
       break;
   }
 }

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "plant_sim/effect/catalogue.hpp"
+#include "plant_sim/effect/placed_id.hpp"
 #include "plant_sim/plant/applied_effects/apply_effects.hpp"
 #include "plant_sim/plant/applied_effects/coupling_effects.hpp"
 
@@ -11,6 +13,7 @@ namespace levitas::plant {
 namespace {
 
 using effect::EffectConfig;
+using effect::GearId;
 using effect::Id;
 
 bool OnGear(const EffectConfig& entry) {
@@ -50,30 +53,28 @@ void AddRunout(const PlantParameters& parameters, const EffectConfig& entry, con
 void ApplyEntry(const PlantParameters& parameters, const EffectConfig& entry, const Values& values,
                 Next& next, std::vector<gear::Harmonic>& error, TrainModel& train) noexcept {
   gear::MeshLaw& law = train.meshes[entry.gear].law;
-  switch (entry.id) {
-    case Id::kMeshStiffness:
+  switch (std::get<GearId>(effect::Placed(entry.id))) {
+    case GearId::kMeshStiffness:
       law.stiffness_n_per_m = values[0];
       law.damping_n_s_per_m = values[1];
       break;
-    case Id::kMeshStiffnessVariation:
+    case GearId::kMeshStiffnessVariation:
       law.variation[next.variation++] = {static_cast<int>(values[0]), values[1], values[2]};
       break;
-    case Id::kBacklash:
+    case GearId::kBacklash:
       law.half_backlash_m += 0.5 * values[0];
       break;
-    case Id::kMeshFriction:
+    case GearId::kMeshFriction:
       law.friction += values[0];
       break;
-    case Id::kTransmissionError:
+    case GearId::kTransmissionError:
       error[next.harmonic++] = {static_cast<int>(values[0]), values[1], values[2]};
       break;
-    case Id::kGearRunout:
+    case GearId::kGearRunout:
       AddRunout(parameters, entry, values, train);
       break;
-    case Id::kToothCrack:
+    case GearId::kToothCrack:
       law.cracks[next.crack++] = {entry.on_driven, static_cast<int>(values[1]), values[0]};
-      break;
-    default:
       break;
   }
 }

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
+#include <variant>
 
 #include "plant_sim/effect/catalogue.hpp"
 #include "plant_sim/effect/eddy_current.hpp"
+#include "plant_sim/effect/placed_id.hpp"
 #include "plant_sim/plant/applied_effects/apply_effects.hpp"
 #include "plant_sim/rotor/plane_shape.hpp"
 
@@ -14,96 +17,108 @@ namespace levitas::plant {
 namespace {
 
 using effect::EffectConfig;
+using effect::ExternalId;
 using effect::Id;
+using effect::RotorId;
+using effect::SensorId;
+using effect::SupportId;
 
 // Between geared shafts it belongs to the train, coupling_effects.hpp.
 bool OfTheTrain(const PlantParameters& parameters, const EffectConfig& entry) {
   return entry.id == Id::kMisalignment && !parameters.config.shafts.empty();
 }
 
-/// Whether an entry acts by a shape of the shaft, at a place or of a mode. No default: the compiler
-/// names a new effect here, whose shape and state are made below.
-bool ActsOnShaft(Id id) {
-  switch (id) {
-    case Id::kShaftBow:
-    case Id::kSensorPosition:
-    case Id::kBreathingCrack:
-    case Id::kInternalDamping:
-    case Id::kUnbalance:
-    case Id::kMisalignment:
-    case Id::kCouplingStiffness:
-    case Id::kCrossCoupledStiffness:
-    case Id::kStaticLoad:
-      return true;
-    case Id::kExtraDelay:
-    case Id::kDroppedSamples:
-    case Id::kSampleJitter:
-    case Id::kAmplifierBandwidth:
-    case Id::kAmplifierSlew:
-    case Id::kCurrentGain:
-    case Id::kDisplacementStiffness:
-    case Id::kCoilAsymmetry:
-    case Id::kMagneticSaturation:
-    case Id::kHysteresis:
-    case Id::kEddyCurrent:
-    case Id::kAxisRotation:
-    case Id::kSensorGain:
-    case Id::kSensorOffset:
-    case Id::kSensorNonlinearity:
-    case Id::kSensorBandwidth:
-    case Id::kSensorRunout:
-    case Id::kMainsPickup:
-    case Id::kSensorNoise:
-    case Id::kShaftAnisotropy:
-    case Id::kModalFrequency:
-    case Id::kModalDamping:
-    case Id::kGyroscopicInertia:
-    case Id::kRotorMass:
-    case Id::kSupportMode:
-    case Id::kTouchdownRub:
-    case Id::kMeshStiffness:
-    case Id::kMeshStiffnessVariation:
-    case Id::kBacklash:
-    case Id::kMeshFriction:
-    case Id::kTransmissionError:
-    case Id::kGearRunout:
-    case Id::kToothCrack:
-    case Id::kForceConstant:
-    case Id::kCommandOffset:
-    case Id::kMagneticCoupling:
-      return false;
+/// By which shape of the shaft an entry acts, at a place or of a mode.
+enum class Shape : std::uint8_t {
+  kNone,
+  kLargest,     ///< of its mode, anywhere on the shaft
+  kAtSensor,    ///< deflection at the sensor, moved
+  kCurvature,   ///< at its plane
+  kBending,     ///< deflection at its plane, of the flexible modes
+  kDeflection,  ///< at its plane
+};
+
+/// No default where shafts are acted on: the compiler names a new effect there.
+struct ShapeOf {
+  Shape operator()(effect::TimingId /*id*/) const { return Shape::kNone; }
+  Shape operator()(effect::AmplifierId /*id*/) const { return Shape::kNone; }
+  Shape operator()(effect::MagnetId /*id*/) const { return Shape::kNone; }
+  Shape operator()(effect::SupportId /*id*/) const { return Shape::kNone; }
+  Shape operator()(effect::GearId /*id*/) const { return Shape::kNone; }
+
+  Shape operator()(SensorId id) const {
+    switch (id) {
+      case SensorId::kSensorPosition:
+        return Shape::kAtSensor;
+      case SensorId::kSensorGain:
+      case SensorId::kSensorOffset:
+      case SensorId::kSensorNonlinearity:
+      case SensorId::kSensorBandwidth:
+      case SensorId::kSensorRunout:
+      case SensorId::kMainsPickup:
+      case SensorId::kSensorNoise:
+        break;
+    }
+    return Shape::kNone;
   }
-  return false;
-}
+
+  Shape operator()(RotorId id) const {
+    switch (id) {
+      case RotorId::kShaftBow:
+        return Shape::kLargest;
+      case RotorId::kBreathingCrack:
+        return Shape::kCurvature;
+      case RotorId::kInternalDamping:
+        return Shape::kBending;
+      case RotorId::kUnbalance:
+        return Shape::kDeflection;
+      case RotorId::kShaftAnisotropy:
+      case RotorId::kModalFrequency:
+      case RotorId::kModalDamping:
+      case RotorId::kGyroscopicInertia:
+      case RotorId::kRotorMass:
+        break;
+    }
+    return Shape::kNone;
+  }
+
+  Shape operator()(ExternalId id) const {
+    switch (id) {
+      case ExternalId::kMisalignment:
+      case ExternalId::kCouplingStiffness:
+      case ExternalId::kCrossCoupledStiffness:
+      case ExternalId::kStaticLoad:
+        break;
+    }
+    return Shape::kDeflection;
+  }
+};
 
 std::vector<double> EntryShape(const PlantParameters& parameters, const EffectConfig& entry) {
-  if (OfTheTrain(parameters, entry) || !ActsOnShaft(entry.id)) return {};
+  if (OfTheTrain(parameters, entry)) return {};
   const rotor::ModalRotor& modes = parameters.modes;
-  switch (entry.id) {
-    case Id::kShaftBow:
+  switch (std::visit(ShapeOf{}, effect::Placed(entry.id))) {
+    case Shape::kNone:
+      break;
+    case Shape::kLargest:
       // The largest deflection that a unit of this mode makes anywhere on the shaft.
       return {modes.shapes.col(static_cast<Eigen::Index>(FlexibleMode(parameters, entry)))
                   .cwiseAbs()
                   .maxCoeff()};
-    case Id::kSensorPosition:
+    case Shape::kAtSensor:
       return rotor::DeflectionAt(
           modes, parameters.config.bearings[entry.bearing].sensor_z_m + entry.values[0]);
-    case Id::kBreathingCrack:
+    case Shape::kCurvature:
       return rotor::CurvatureAt(modes, entry.values[0]);
-    case Id::kInternalDamping: {
+    case Shape::kBending: {
       auto bending = rotor::DeflectionAt(modes, entry.values[0]);
       std::fill_n(bending.begin(), modes.rigid_modes, 0.0);
       return bending;
     }
-    case Id::kUnbalance:
-    case Id::kMisalignment:
-    case Id::kCouplingStiffness:
-    case Id::kCrossCoupledStiffness:
-    case Id::kStaticLoad:
+    case Shape::kDeflection:
       return rotor::DeflectionAt(modes, entry.values[0]);
-    default:  // at no place of a shaft: ActsOnShaft()
-      return {};
   }
+  return {};
 }
 
 void ReserveAxis(const EffectConfig& entry, std::size_t axis, BearingEffects& bearing,
@@ -121,77 +136,170 @@ void ReserveAxis(const EffectConfig& entry, std::size_t axis, BearingEffects& be
   if (entry.id == Id::kMainsPickup) model.pickups.emplace_back();
 }
 
-void ReserveOnShaft(const PlantParameters& parameters, const EffectConfig& entry,
-                    EffectModel& model, StateLayout& layout) {
-  const std::vector<double> empty(layout.modes, 0.0);
-  switch (entry.id) {
-    case Id::kShaftBow:
-      model.bow.assign(2 * layout.modes, 0.0);
-      break;
-    case Id::kInternalDamping:
-      model.dampers.push_back({empty, 0.0});
-      break;
-    case Id::kBreathingCrack:
-      model.cracks.push_back({empty, 0.0, 1.0, 0.0});
-      break;
-    case Id::kMisalignment:
-      model.order_forces.push_back({empty, 0, 0.0});
-      break;
-    case Id::kCouplingStiffness:
-    case Id::kCrossCoupledStiffness:
-      model.springs.push_back({empty, 0.0, 0.0, 0.0, 0.0});
-      break;
-    case Id::kTouchdownRub: {
-      support::Touchdown rub;
-      rub.journal_radius_m = parameters.config.bearings[entry.bearing].touchdown.journal_radius_m;
-      model.bearings[entry.bearing].rubs.push_back(rub);
-      break;
-    }
-    case Id::kSupportMode:
-      model.bearings[entry.bearing].housing_state = layout.size;
-      layout.size += 4;
-      model.housings = true;
-      break;
-    default:
-      break;
-  }
-}
+/// Room for what an entry adds beside its channels. No default: the compiler names a new effect of
+/// the rotor, its supports and what pushes it.
+struct Reserve {
+  const PlantParameters& parameters;
+  const EffectConfig& entry;
+  EffectModel& model;
+  StateLayout& layout;
 
-/// Which parts of the time step an entry switches on.
-void Mark(const EffectConfig& entry, EffectModel& model) {
-  switch (effect::At(entry.id).place) {
-    case effect::Place::kMagnet:
-      (entry.on_sensor ? model.views : model.magnets) = true;
-      break;
-    case effect::Place::kSupport:
-      model.magnets = true;
-      model.views = model.views || entry.id == Id::kSupportMode;
-      break;
-    case effect::Place::kSensor:
-      model.views =
-          model.views || entry.id == Id::kSensorRunout || entry.id == Id::kSensorNonlinearity;
-      model.outputs = model.outputs || entry.id == Id::kSensorOffset ||
-                      entry.id == Id::kMainsPickup || entry.id == Id::kSensorNoise;
-      break;
-    case effect::Place::kRotor:
-      model.motions = model.motions || entry.id == Id::kShaftBow ||
-                      entry.id == Id::kShaftAnisotropy || entry.id == Id::kInternalDamping ||
-                      entry.id == Id::kBreathingCrack;
-      break;
-    case effect::Place::kExternal:
-      model.motions = model.motions || entry.id != Id::kStaticLoad;
-      break;
-    case effect::Place::kTiming:
-      model.outputs = model.outputs || entry.id == Id::kSampleJitter;
-      break;
-    case effect::Place::kAmplifier:
-      model.magnets =
-          model.magnets || (entry.id != Id::kAmplifierBandwidth && entry.id != Id::kAmplifierSlew);
-      break;
-    case effect::Place::kGear:
-      break;
+  // Of channels, ReserveAxis(); of gears, gear_effects.hpp.
+  void operator()(effect::TimingId /*id*/) const {}
+  void operator()(effect::AmplifierId /*id*/) const {}
+  void operator()(effect::MagnetId /*id*/) const {}
+  void operator()(SensorId /*id*/) const {}
+  void operator()(effect::GearId /*id*/) const {}
+
+  void operator()(RotorId id) const {
+    const std::vector<double> empty(layout.modes, 0.0);
+    switch (id) {
+      case RotorId::kShaftBow:
+        model.bow.assign(2 * layout.modes, 0.0);
+        break;
+      case RotorId::kInternalDamping:
+        model.dampers.push_back({empty, 0.0});
+        break;
+      case RotorId::kBreathingCrack:
+        model.cracks.push_back({empty, 0.0, 1.0, 0.0});
+        break;
+      case RotorId::kUnbalance:  // these change numbers that every rotor has
+      case RotorId::kShaftAnisotropy:
+      case RotorId::kModalFrequency:
+      case RotorId::kModalDamping:
+      case RotorId::kGyroscopicInertia:
+      case RotorId::kRotorMass:
+        break;
+    }
   }
-}
+
+  void operator()(ExternalId id) const {
+    const std::vector<double> empty(layout.modes, 0.0);
+    switch (id) {
+      case ExternalId::kMisalignment:
+        model.order_forces.push_back({empty, 0, 0.0});
+        break;
+      case ExternalId::kCouplingStiffness:
+      case ExternalId::kCrossCoupledStiffness:
+        model.springs.push_back({empty, 0.0, 0.0, 0.0, 0.0});
+        break;
+      case ExternalId::kStaticLoad:
+        break;
+    }
+  }
+
+  void operator()(SupportId id) const {
+    BearingEffects& bearing = model.bearings[entry.bearing];
+    switch (id) {
+      case SupportId::kTouchdownRub: {
+        support::Touchdown rub;
+        rub.journal_radius_m = parameters.config.bearings[entry.bearing].touchdown.journal_radius_m;
+        bearing.rubs.push_back(rub);
+        break;
+      }
+      case SupportId::kSupportMode:
+        bearing.housing_state = layout.size;
+        layout.size += 4;
+        model.housings = true;
+        break;
+    }
+  }
+};
+
+/// Which parts of the time step an entry switches on. No default: the compiler names a new effect.
+struct Mark {
+  const EffectConfig& entry;
+  EffectModel& model;
+
+  void operator()(effect::MagnetId /*id*/) const {
+    (entry.on_sensor ? model.views : model.magnets) = true;
+  }
+
+  void operator()(SupportId id) const {
+    model.magnets = true;
+    switch (id) {
+      case SupportId::kSupportMode:
+        model.views = true;
+        break;
+      case SupportId::kTouchdownRub:
+        break;
+    }
+  }
+
+  void operator()(SensorId id) const {
+    switch (id) {
+      case SensorId::kSensorRunout:
+      case SensorId::kSensorNonlinearity:
+        model.views = true;
+        break;
+      case SensorId::kSensorOffset:
+      case SensorId::kMainsPickup:
+      case SensorId::kSensorNoise:
+        model.outputs = true;
+        break;
+      case SensorId::kSensorGain:  // these change numbers that every sensor has
+      case SensorId::kSensorBandwidth:
+      case SensorId::kSensorPosition:
+        break;
+    }
+  }
+
+  void operator()(RotorId id) const {
+    switch (id) {
+      case RotorId::kShaftBow:
+      case RotorId::kShaftAnisotropy:
+      case RotorId::kInternalDamping:
+      case RotorId::kBreathingCrack:
+        model.motions = true;
+        break;
+      case RotorId::kUnbalance:  // these change numbers that every rotor has
+      case RotorId::kModalFrequency:
+      case RotorId::kModalDamping:
+      case RotorId::kGyroscopicInertia:
+      case RotorId::kRotorMass:
+        break;
+    }
+  }
+
+  void operator()(ExternalId id) const {
+    switch (id) {
+      case ExternalId::kMisalignment:
+      case ExternalId::kCouplingStiffness:
+      case ExternalId::kCrossCoupledStiffness:
+        model.motions = true;
+        break;
+      case ExternalId::kStaticLoad:
+        break;
+    }
+  }
+
+  void operator()(effect::TimingId id) const {
+    using effect::TimingId;
+    switch (id) {
+      case TimingId::kSampleJitter:
+        model.outputs = true;
+        break;
+      case TimingId::kExtraDelay:
+      case TimingId::kDroppedSamples:
+        break;
+    }
+  }
+
+  void operator()(effect::AmplifierId id) const {
+    using effect::AmplifierId;
+    switch (id) {
+      case AmplifierId::kCurrentGain:
+      case AmplifierId::kCommandOffset:
+        model.magnets = true;
+        break;
+      case AmplifierId::kAmplifierBandwidth:
+      case AmplifierId::kAmplifierSlew:
+        break;
+    }
+  }
+
+  void operator()(effect::GearId /*id*/) const {}  // gear_effects.hpp
+};
 
 }  // namespace
 
@@ -220,8 +328,9 @@ EffectModel PrepareEffects(const PlantParameters& parameters, StateLayout& layou
   model.turns.resize(bearings);
   for (const EffectConfig& entry : parameters.config.effects) {
     if (OfTheTrain(parameters, entry)) continue;
-    Mark(entry, model);
-    ReserveOnShaft(parameters, entry, model, layout);
+    const effect::PlacedId placed = effect::Placed(entry.id);
+    std::visit(Mark{entry, model}, placed);
+    std::visit(Reserve{parameters, entry, model, layout}, placed);
     if (effect::At(entry.id).scope != effect::Scope::kChannels) continue;
     for (std::size_t axis = 0; axis < 2 * bearings; ++axis) {
       if (entry.Acts(axis)) ReserveAxis(entry, axis, model.bearings[axis / 2], model, layout);
