@@ -6,8 +6,10 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <variant>
 
 #include "common/problem.hpp"
+#include "plant_sim/effect/placed_id.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
 namespace levitas::accuracy {
@@ -119,28 +121,80 @@ law::LawConfig TextbookLaw(const law::LawConfig& limits, const plant::PlantConfi
   return law;
 }
 
-/// Sizes that DrawEffect has in newtons, kilograms or micrometres of a probe.
-void ScaleSizes(double weight, double force, double noise, RigTrials& trials) {
-  using effect::Id;
-  for (SizeOnRig& entry : trials.effects) {
-    switch (entry.id) {
-      case Id::kUnbalance:
-      case Id::kInternalDamping:
-        entry.factor *= weight;
-        break;
-      case Id::kStaticLoad:
-      case Id::kMisalignment:
-      case Id::kCouplingStiffness:
-      case Id::kCrossCoupledStiffness:
-      case Id::kTouchdownRub:
-        entry.factor *= force;
-        break;
-      case Id::kMainsPickup:
-        entry.factor *= noise;
-        break;
-      default:
+/// What scales a size that DrawEffect has in newtons, kilograms or micrometres of a probe. No
+/// default at a place that has such sizes: the compiler names a new effect there.
+struct ScaleOf {
+  double weight{}, force{}, noise{};
+
+  // Times, ratios and currents.
+  double operator()(effect::TimingId /*id*/) const { return 1.0; }
+  double operator()(effect::AmplifierId /*id*/) const { return 1.0; }
+  double operator()(effect::MagnetId /*id*/) const { return 1.0; }
+  // No drawn rig has gears.
+  double operator()(effect::GearId /*id*/) const { return 1.0; }
+
+  double operator()(effect::RotorId id) const {
+    using effect::RotorId;
+    switch (id) {
+      case RotorId::kUnbalance:
+      case RotorId::kInternalDamping:
+        return weight;
+      case RotorId::kShaftBow:
+      case RotorId::kShaftAnisotropy:
+      case RotorId::kModalFrequency:
+      case RotorId::kModalDamping:
+      case RotorId::kGyroscopicInertia:
+      case RotorId::kRotorMass:
+      case RotorId::kBreathingCrack:
         break;
     }
+    return 1.0;
+  }
+
+  double operator()(effect::ExternalId id) const {
+    using effect::ExternalId;
+    switch (id) {
+      case ExternalId::kStaticLoad:
+      case ExternalId::kMisalignment:
+      case ExternalId::kCouplingStiffness:
+      case ExternalId::kCrossCoupledStiffness:
+        break;
+    }
+    return force;
+  }
+
+  double operator()(effect::SupportId id) const {
+    using effect::SupportId;
+    switch (id) {
+      case SupportId::kTouchdownRub:
+        return force;
+      case SupportId::kSupportMode:
+        break;
+    }
+    return 1.0;
+  }
+
+  double operator()(effect::SensorId id) const {
+    using effect::SensorId;
+    switch (id) {
+      case SensorId::kMainsPickup:
+        return noise;
+      case SensorId::kSensorGain:
+      case SensorId::kSensorOffset:
+      case SensorId::kSensorNonlinearity:
+      case SensorId::kSensorBandwidth:
+      case SensorId::kSensorPosition:
+      case SensorId::kSensorRunout:
+      case SensorId::kSensorNoise:
+        break;
+    }
+    return 1.0;
+  }
+};
+
+void ScaleSizes(const ScaleOf& scale, RigTrials& trials) {
+  for (SizeOnRig& entry : trials.effects) {
+    entry.factor *= std::visit(scale, effect::Placed(entry.id));
   }
 }
 
@@ -186,7 +240,7 @@ TestRig DrawRig(const TestRig& shipped, Random& random) {
   drawn.rig.tolerances = tolerances;
   drawn.trials.mismatch.unbalance_kg_m *= weight;
   drawn.trials.mismatch.static_load_n *= force_n / file_force_n;
-  ScaleSizes(weight, force_n / file_force_n, noise_m / 1e-6, drawn.trials);
+  ScaleSizes({weight, force_n / file_force_n, noise_m / 1e-6}, drawn.trials);
   return drawn;
 }
 

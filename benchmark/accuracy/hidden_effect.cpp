@@ -7,14 +7,23 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <variant>
 
 #include "plant_sim/effect/catalogue.hpp"
+#include "plant_sim/effect/placed_id.hpp"
 
 namespace levitas::accuracy {
 namespace {
 
+using effect::AmplifierId;
 using effect::EffectConfig;
+using effect::ExternalId;
 using effect::Id;
+using effect::MagnetId;
+using effect::RotorId;
+using effect::SensorId;
+using effect::SupportId;
+using effect::TimingId;
 
 /// All but those of teeth (hidden_gear_effect.hpp) and the jitter, which a rotor never shows.
 std::vector<Id> MakeIds() {
@@ -33,38 +42,12 @@ class Drawer {
   }
 
   std::vector<EffectConfig> Draw() {
-    switch (effect::At(entry_.id).place) {
-      case effect::Place::kTiming:
-      case effect::Place::kAmplifier:
-        Loop();
-        break;
-      case effect::Place::kMagnet:
-        Magnet();
-        break;
-      case effect::Place::kSensor:
-        Sensor();
-        break;
-      case effect::Place::kRotor:
-        Rotor();
-        break;
-      case effect::Place::kSupport:
-      case effect::Place::kExternal:
-        Outside();
-        break;
-      case effect::Place::kGear:
-        Refuse();  // hidden_gear_effect.hpp draws those
-    }
+    std::visit([this](auto id) { Set(id); }, effect::Placed(entry_.id));
     std::vector<EffectConfig> entries{entry_};
     return entries;
   }
 
  private:
-  /// An effect is not drawn as another one: a new one needs a row of its own below.
-  [[noreturn]] void Refuse() const {
-    throw std::logic_error(
-        fmt::format("{}: no size is drawn for it (benchmark/accuracy/hidden_effect.cpp)",
-                    effect::At(entry_.id).name));
-  }
   [[nodiscard]] double Sign() { return random_.Uniform() < 0.5 ? -1.0 : 1.0; }
   [[nodiscard]] double Between(double low, double high) {
     return low + (high - low) * random_.Uniform();
@@ -99,28 +82,37 @@ class Drawer {
   void OneChannel() { entry_.axes = 1U << Pick(2 * nominal_.config.bearings.size()); }
   void Bearing() { entry_.bearing = Pick(nominal_.config.bearings.size()); }
 
-  void Loop() {
-    switch (entry_.id) {
-      case Id::kExtraDelay:
+  // What is drawn of each effect. No default: the compiler names a new one here.
+  void Set(TimingId id) {
+    switch (id) {
+      case TimingId::kExtraDelay:
         Value(0) = 80e-6 * size_;
         break;
-      case Id::kDroppedSamples:
+      case TimingId::kDroppedSamples:
         Value(0) = 0.004 * size_;
         Value(1) = static_cast<double>(1 + Pick(2));
         break;
-      case Id::kCurrentGain:
+      case TimingId::kSampleJitter:
+        Clear();
+        break;
+    }
+  }
+
+  void Set(AmplifierId id) {
+    switch (id) {
+      case AmplifierId::kCurrentGain:
         Channels();
         Value(0) = Ratio(0.25);
         break;
-      case Id::kAmplifierBandwidth:
+      case AmplifierId::kAmplifierBandwidth:
         Channels();
         Value(0) = nominal_.config.bearings[0].amplifier.bandwidth_hz * Ratio(0.8);
         break;
-      case Id::kAmplifierSlew:
+      case AmplifierId::kAmplifierSlew:
         AllChannels();
         Value(0) = 5000.0 / std::sqrt(size_);
         break;
-      default:
+      case AmplifierId::kCommandOffset:
         Clear();
         break;
     }
@@ -139,34 +131,35 @@ class Drawer {
     }
   }
 
-  void Magnet() {
-    switch (entry_.id) {
-      case Id::kDisplacementStiffness:
+  void Set(MagnetId id) {
+    switch (id) {
+      case MagnetId::kDisplacementStiffness:
         Channels();
         Value(0) = 1.0 + Sign() * 0.3 * size_;
         break;
-      case Id::kCoilAsymmetry:
+      case MagnetId::kCoilAsymmetry:
         Channels();
         Value(0) = Ratio(0.45);
         break;
-      case Id::kMagneticSaturation:
+      case MagnetId::kMagneticSaturation:
         AllChannels();
         Value(0) = 2.3 / std::sqrt(std::sqrt(size_));
         Value(1) = Between(3.0, 6.0);
         break;
-      case Id::kHysteresis:
+      case MagnetId::kHysteresis:
         AllChannels();
         Value(0) = 0.005 * size_;
         Value(1) = Between(0.5, 1.5);
         break;
-      case Id::kEddyCurrent:
+      case MagnetId::kEddyCurrent:
         Channels();
         Value(0) = 10e-6 * size_ * size_;
         break;
-      case Id::kAxisRotation:
+      case MagnetId::kAxisRotation:
         Rotation();
         break;
-      default:
+      case MagnetId::kForceConstant:
+      case MagnetId::kMagneticCoupling:
         Clear();
         break;
     }
@@ -178,92 +171,88 @@ class Drawer {
     Value(0) = Sign() * 0.02 * size_;
   }
 
-  void Sensor() {
-    switch (entry_.id) {
-      case Id::kSensorGain:
+  void Set(SensorId id) {
+    switch (id) {
+      case SensorId::kSensorGain:
         Channels();
         Value(0) = Ratio(0.22);
         break;
-      case Id::kSensorOffset:
+      case SensorId::kSensorOffset:
         OneChannel();
         Value(0) = Sign() * 85e-6 * size_;
         break;
-      case Id::kSensorNonlinearity:
+      case SensorId::kSensorNonlinearity:
         Channels();
         Value(0) = Sign() * 1.5e3 * size_;
         Value(1) = Sign() * 4e7 * size_;
         break;
-      case Id::kSensorBandwidth:
+      case SensorId::kSensorBandwidth:
         Channels();
         Value(0) = nominal_.config.bearings[0].sensor.bandwidth_hz / (1.0 + 2.5 * size_);
         break;
-      case Id::kSensorPosition:
+      case SensorId::kSensorPosition:
         Bearing();
         Value(0) = Sign() * 6e-3 * size_;
         break;
-      case Id::kSensorRunout:
+      case SensorId::kSensorRunout:
         Channels();
         Value(0) = static_cast<double>(1 + Pick(3));
         Value(1) = (Value(0) == 1.0 ? 10e-6 : 0.5e-6) * size_;
         Value(2) = Phase();
         break;
-      case Id::kMainsPickup:
+      case SensorId::kMainsPickup:
         Channels();
         Value(0) = Pick(2) == 0 ? 50.0 : 60.0;
         Value(1) = 0.1e-6 * size_;
         Value(2) = Phase();
         break;
-      case Id::kSensorNoise:
+      case SensorId::kSensorNoise:
         Channels();
         Value(0) = nominal_.config.bearings[0].sensor.noise_rms_m * (1.0 + 0.6 * size_);
         Value(1) = 0.0;
         break;
-      default:
-        Refuse();
     }
   }
 
-  void Rotor() {
-    switch (entry_.id) {
-      case Id::kUnbalance:
+  void Set(RotorId id) {
+    switch (id) {
+      case RotorId::kUnbalance:
         Value(0) = Disc();
         Value(1) = 40e-6 * size_;
         Value(2) = Phase();
         break;
-      case Id::kShaftBow:
+      case RotorId::kShaftBow:
         entry_.mode = 1;
         Value(0) = 35e-6 * size_;
         Value(1) = Phase();
         break;
-      case Id::kShaftAnisotropy:
+      case RotorId::kShaftAnisotropy:
         Value(0) = 0.006 * size_;
         Value(1) = Phase();
         break;
-      case Id::kModalFrequency:
+      case RotorId::kModalFrequency:
         Mode();
         Value(0) = OwnFrequency() * Ratio(0.1);
         break;
-      case Id::kModalDamping:
+      case RotorId::kModalDamping:
         Mode();
         Value(0) = 0.003 * (1.0 + 12.0 * size_);
         break;
-      case Id::kGyroscopicInertia:
+      case RotorId::kGyroscopicInertia:
         Value(0) = 1.0 + Sign() * 0.3 * size_;
         break;
-      case Id::kInternalDamping:
+      case RotorId::kInternalDamping:
         Value(0) = nominal_.config.rotor.discs[1].z_m;
         Value(1) = 20.0 * size_;
         break;
-      case Id::kRotorMass:
+      case RotorId::kRotorMass:
         Value(0) = Ratio(0.14);
         break;
-      case Id::kBreathingCrack:
+      case RotorId::kBreathingCrack:
         Value(0) = Between(0.2, 0.36);
         Value(1) = std::min(0.5, 0.35 * std::sqrt(size_));
         Value(2) = Phase();
         break;
-      default:
-        Refuse();
     }
   }
 
@@ -276,46 +265,54 @@ class Drawer {
            (2.0 * std::numbers::pi);
   }
 
-  void Outside() {
-    switch (entry_.id) {
-      case Id::kMisalignment: {
+  void Set(ExternalId id) {
+    switch (id) {
+      case ExternalId::kMisalignment: {
         constexpr std::array kOrders{2.0, -2.0, 3.0, -3.0};
         Value(1) = kOrders[Pick(kOrders.size())];
         Value(2) = 0.6 * size_;
         Value(3) = Phase();
         break;
       }
-      case Id::kCouplingStiffness:
+      case ExternalId::kCouplingStiffness:
         Value(1) = 3e3 * size_;
         Value(2) = Between(-0.5, 0.5) * Value(1);
         break;
-      case Id::kCrossCoupledStiffness:
+      case ExternalId::kCrossCoupledStiffness:
         Value(0) = nominal_.config.rotor.discs[1].z_m;
         Value(1) = Sign() * 8e3 * size_;
         break;
-      case Id::kStaticLoad: {
+      case ExternalId::kStaticLoad: {
         const double angle = Phase();
         Value(0) = Disc();
         Value(1) = 8.0 * size_ * std::cos(angle);
         Value(2) = 8.0 * size_ * std::sin(angle);
         break;
       }
-      case Id::kSupportMode:
+    }
+  }
+
+  void Set(SupportId id) {
+    switch (id) {
+      case SupportId::kSupportMode:
         Bearing();
         Value(0) = 4.0 / size_;
         Value(1) = 50.0 * std::pow(5.0, random_.Uniform());
         Value(2) = Between(0.01, 0.04);
         break;
-      case Id::kTouchdownRub:
+      case SupportId::kTouchdownRub:
         Bearing();
         Value(0) = Between(9e-6, 14e-6);
         Value(1) = 3e4 * size_;
         Value(2) = Between(0.0, 50.0);
         Value(3) = Between(0.05, 0.2);
         break;
-      default:
-        Refuse();
     }
+  }
+
+  [[noreturn]] void Set(effect::GearId /*id*/) const {
+    throw std::logic_error(fmt::format("{}: DrawGearEffect() draws it (hidden_gear_effect.hpp)",
+                                       effect::At(entry_.id).name));
   }
 
   double size_;

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <variant>
 
+#include "plant_sim/effect/placed_id.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
 namespace levitas::accuracy {
@@ -11,6 +14,103 @@ namespace {
 
 using effect::EffectConfig;
 using effect::Id;
+
+/// How a hidden effect joins one that the healthy rig has at the same place.
+enum class Joining : std::uint8_t {
+  kMultiplies,
+  kMultipliesBandwidth,
+  kAdds,
+  kAddsForce,  ///< on the same plane
+  kStaysApart  ///< an entry of its own
+};
+
+/// No default where a healthy rig is off (Mismatch): the compiler names a new effect there.
+struct JoiningOf {
+  // The mismatch has no entry of these: delay and meshes are off in the configuration.
+  Joining operator()(effect::TimingId /*id*/) const { return Joining::kStaysApart; }
+  Joining operator()(effect::SupportId /*id*/) const { return Joining::kStaysApart; }
+  Joining operator()(effect::GearId /*id*/) const { return Joining::kStaysApart; }
+
+  Joining operator()(effect::AmplifierId id) const {
+    using effect::AmplifierId;
+    switch (id) {
+      case AmplifierId::kCurrentGain:
+        return Joining::kMultiplies;
+      case AmplifierId::kAmplifierBandwidth:
+        return Joining::kMultipliesBandwidth;
+      case AmplifierId::kAmplifierSlew:
+      case AmplifierId::kCommandOffset:
+        break;
+    }
+    return Joining::kStaysApart;
+  }
+
+  Joining operator()(effect::MagnetId id) const {
+    using effect::MagnetId;
+    switch (id) {
+      case MagnetId::kDisplacementStiffness:
+        return Joining::kMultiplies;
+      case MagnetId::kForceConstant:
+      case MagnetId::kCoilAsymmetry:
+      case MagnetId::kMagneticSaturation:
+      case MagnetId::kHysteresis:
+      case MagnetId::kEddyCurrent:
+      case MagnetId::kMagneticCoupling:
+      case MagnetId::kAxisRotation:
+        break;
+    }
+    return Joining::kStaysApart;
+  }
+
+  Joining operator()(effect::RotorId id) const {
+    using effect::RotorId;
+    switch (id) {
+      case RotorId::kRotorMass:
+      case RotorId::kGyroscopicInertia:
+        return Joining::kMultiplies;
+      case RotorId::kUnbalance:
+      case RotorId::kShaftBow:
+      case RotorId::kShaftAnisotropy:
+      case RotorId::kModalFrequency:
+      case RotorId::kModalDamping:
+      case RotorId::kInternalDamping:
+      case RotorId::kBreathingCrack:
+        break;
+    }
+    return Joining::kStaysApart;
+  }
+
+  Joining operator()(effect::ExternalId id) const {
+    using effect::ExternalId;
+    switch (id) {
+      case ExternalId::kStaticLoad:
+        return Joining::kAddsForce;
+      case ExternalId::kMisalignment:
+      case ExternalId::kCouplingStiffness:
+      case ExternalId::kCrossCoupledStiffness:
+        break;
+    }
+    return Joining::kStaysApart;
+  }
+
+  Joining operator()(effect::SensorId id) const {
+    using effect::SensorId;
+    switch (id) {
+      case SensorId::kSensorGain:
+        return Joining::kMultiplies;
+      case SensorId::kSensorOffset:
+      case SensorId::kSensorPosition:
+        return Joining::kAdds;
+      case SensorId::kSensorNonlinearity:
+      case SensorId::kSensorBandwidth:
+      case SensorId::kSensorRunout:
+      case SensorId::kMainsPickup:
+      case SensorId::kSensorNoise:
+        break;
+    }
+    return Joining::kStaysApart;
+  }
+};
 
 class Maker {
  public:
@@ -139,36 +239,32 @@ class Maker {
     modes.rigid = (unit + (std::sqrt(ratio) - 1.0) * along) * modes.rigid;
   }
 
-  /// Ratios multiply, offsets add: an effect on top of what the healthy rig is off by.
+  /// An effect on top of what the healthy rig is off by.
   void Join(const EffectConfig& entry, const rotor::ModalRotor& modes) {
+    const Joining joining = std::visit(JoiningOf{}, effect::Placed(entry.id));
     bool joined = false;
     for (EffectConfig& own : config_.effects) {
       if (own.id != entry.id || !Meets(own, entry)) continue;
-      switch (entry.id) {
-        case Id::kCurrentGain:
-        case Id::kDisplacementStiffness:
-        case Id::kSensorGain:
-        case Id::kRotorMass:
-        case Id::kGyroscopicInertia:
+      switch (joining) {
+        case Joining::kMultiplies:
           own.values[0] *= entry.values[0];
           joined = true;
           break;
-        case Id::kAmplifierBandwidth:
+        case Joining::kMultipliesBandwidth:
           own.values[0] *= entry.values[0] / config_.bearings[0].amplifier.bandwidth_hz;
           joined = true;
           break;
-        case Id::kSensorOffset:
-        case Id::kSensorPosition:
+        case Joining::kAdds:
           own.values[0] += entry.values[0];
           joined = true;
           break;
-        case Id::kStaticLoad:
+        case Joining::kAddsForce:
           if (own.values[0] != entry.values[0]) break;
           own.values[1] += entry.values[1];
           own.values[2] += entry.values[2];
           joined = true;
           break;
-        default:
+        case Joining::kStaysApart:
           break;
       }
     }

@@ -134,9 +134,10 @@ const char* Name(Size size) noexcept {
       return "moderate";
     case Size::kFaint:
       return "faint";
-    default:
-      return "below";
+    case Size::kBelow:
+      break;
   }
+  return "below";
 }
 
 std::optional<Trial> TryTrial(const TestRig& bench, const TrialPlan& plan) {

@@ -20,9 +20,10 @@ std::string Name(Unmodelled outside) {
       return "sensor_crosstalk";
     case Unmodelled::kWanderingGain:
       return "wandering_gain";
-    default:
-      return "nothing";
+    case Unmodelled::kNothing:
+      break;
   }
+  return "nothing";
 }
 
 Disturbance::Disturbance(Unmodelled kind, double size, std::size_t axes, double period_s,
@@ -39,30 +40,48 @@ Disturbance::Disturbance(Unmodelled kind, double size, std::size_t axes, double 
 }
 
 void Disturbance::Read(double time_s, AxisArray& reading_m) {
-  if (kind_ == Unmodelled::kCrosstalk) reading_m[axis_] += 0.08 * size_ * reading_m[other_];
-  if (kind_ == Unmodelled::kWanderingGain) {
-    reading_m[axis_] *= 1.0 + 0.25 * size_ * std::sin(kTurn * 1.7 * time_s);
+  switch (kind_) {
+    case Unmodelled::kCrosstalk:
+      reading_m[axis_] += 0.08 * size_ * reading_m[other_];
+      break;
+    case Unmodelled::kWanderingGain:
+      reading_m[axis_] *= 1.0 + 0.25 * size_ * std::sin(kTurn * 1.7 * time_s);
+      break;
+    case Unmodelled::kNothing:
+    case Unmodelled::kToneForce:  // forces: Current()
+    case Unmodelled::kSubsynchronous:
+    case Unmodelled::kTurbulence:
+      break;
   }
 }
 
 AxisArray Disturbance::Current(double time_s, double angle_rad, double speed_rad_per_s) {
   AxisArray current_a{};
-  if (kind_ == Unmodelled::kToneForce) {
-    current_a[axis_] = 0.03 * size_ * std::sin(kTurn * frequency_hz_ * time_s);
-  }
-  if (kind_ == Unmodelled::kSubsynchronous && speed_rad_per_s > 0.0) {
-    const std::size_t x = axis_ - axis_ % 2;
-    current_a[x] = 0.03 * size_ * std::cos(order_ * angle_rad);
-    current_a[x + 1] = 0.03 * size_ * std::sin(order_ * angle_rad);
-  }
-  if (kind_ == Unmodelled::kTurbulence) {
-    // White noise through a resonance of 10 % damping.
-    const double w = kTurn * frequency_hz_;
-    resonance_rate_ +=
-        period_s_ * (noise_.Normal() - w * w * resonance_ - 0.2 * w * resonance_rate_);
-    resonance_ += period_s_ * resonance_rate_;
-    // Variance of the resonance driven by white noise of this step: T/(4 z w^3), z = 0.1.
-    current_a[axis_] = 0.03 * size_ * resonance_ / std::sqrt(period_s_ / (0.4 * w * w * w));
+  switch (kind_) {
+    case Unmodelled::kToneForce:
+      current_a[axis_] = 0.03 * size_ * std::sin(kTurn * frequency_hz_ * time_s);
+      break;
+    case Unmodelled::kSubsynchronous: {
+      if (!(speed_rad_per_s > 0.0)) break;
+      const std::size_t x = axis_ - axis_ % 2;
+      current_a[x] = 0.03 * size_ * std::cos(order_ * angle_rad);
+      current_a[x + 1] = 0.03 * size_ * std::sin(order_ * angle_rad);
+      break;
+    }
+    case Unmodelled::kTurbulence: {
+      // White noise through a resonance of 10 % damping.
+      const double w = kTurn * frequency_hz_;
+      resonance_rate_ +=
+          period_s_ * (noise_.Normal() - w * w * resonance_ - 0.2 * w * resonance_rate_);
+      resonance_ += period_s_ * resonance_rate_;
+      // Variance of the resonance driven by white noise of this step: T/(4 z w^3), z = 0.1.
+      current_a[axis_] = 0.03 * size_ * resonance_ / std::sqrt(period_s_ / (0.4 * w * w * w));
+      break;
+    }
+    case Unmodelled::kNothing:
+    case Unmodelled::kCrosstalk:  // readings: Read()
+    case Unmodelled::kWanderingGain:
+      break;
   }
   return current_a;
 }

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include "benchmark/accuracy/perturbed_rig.hpp"
 #include "benchmark/accuracy/trial.hpp"
 #include "plant_sim/effect/catalogue.hpp"
@@ -30,6 +32,14 @@ TEST(HiddenEffects, OfEveryIdAndSizeAreAcceptedByTheRig) {
       EXPECT_NO_THROW(plant::PlantModel(PerturbedRig(TheBench().rig.plant, {}, entries, random)))
           << effect::At(id).name << " at " << size;
     }
+  }
+}
+
+TEST(HiddenEffects, OfTeethAreNotDrawnAsOnesOfTheRotor) {
+  const auto nominal = plant::Reduce(TheBench().rig.plant);
+  Random random(3);
+  for (const effect::Row& row : effect::GearRows()) {
+    EXPECT_THROW((void)DrawEffect(row.id, 1.0, nominal, random), std::logic_error) << row.name;
   }
 }
 
