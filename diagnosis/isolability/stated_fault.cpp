@@ -6,6 +6,7 @@
 #include <array>
 
 #include "configuration/schema/unit.hpp"
+#include "diagnosis/model/location.hpp"
 #include "plant_sim/effect/strength.hpp"
 #include "plant_sim/plant/applied_effects/apply_effects.hpp"
 #include "plant_sim/plant/applied_effects/clear_entry.hpp"
@@ -24,9 +25,11 @@ std::string PlaceOf(const effect::EffectConfig& entry, const RigView& rig) {
       return AtBearing(rig.numbers, entry.bearing).name;
     case Scope::kMode:
       return AtMode(entry.mode).name;
-    default:
-      return "";
+    case Scope::kRig:
+    case Scope::kGear:  // refused before
+      break;
   }
+  return "";
 }
 
 /// The first parameter that grows with the effect: the others are places, phases and shapes.

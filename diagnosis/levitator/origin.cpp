@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <variant>
 
 #include "common/problem.hpp"
 #include "plant_sim/effect/catalogue.hpp"
+#include "plant_sim/effect/placed_id.hpp"
 #include "plant_sim/plant/plain_sensors.hpp"
 
 namespace levitas::levitator {
 namespace {
-
-using effect::Id;
 
 bool IsRatio(std::size_t i) {
   constexpr std::array kRatios{kSupply,         kResistance, kInductance, kAwaySupply,
@@ -24,56 +24,118 @@ bool IsRatio(std::size_t i) {
 
 double LagOf(double bandwidth_hz) { return 1.0 / (2.0 * std::numbers::pi * bandwidth_hz); }
 
-[[noreturn]] void RefuseEffect(const effect::EffectConfig& entry,
-                               const configuration::RigFile& file) {
-  throw BadInput(
-      fmt::format("rig {}: effects: `{}` has no place in the diagnosis of a ball between two "
-                  "magnets; write it into the keys of the coil or the magnet, or leave it out",
-                  file.numbers.name, effect::At(entry.id).name));
-}
+/// What an effect of the rig file moves. Only some have a parameter here; no default where they
+/// do, so that the compiler names a new effect there.
+struct MovedBy {
+  const effect::EffectConfig& entry;
+  const configuration::RigFile& file;
 
-Theta Of(const effect::EffectConfig& entry, const configuration::RigFile& file) {
-  const auto& v = entry.values;
-  Theta t = Zeros(0);
-  switch (entry.id) {
-    case Id::kExtraDelay:
-      t[kDelay] = v[0] / (static_cast<double>(file.plant.period_ns) * 1e-9);
-      break;
-    case Id::kMagneticSaturation:
-      t[kForceKnee] = 1.0 / (v[0] * v[0]);  // exponent 2, which ExtendedRig writes
-      break;
-    case Id::kEddyCurrent:
-      t[kForceLag] = v[0];
-      break;
-    case Id::kSensorGain:
-      t[kSensorGain] = v[0] - 1.0;
-      break;
-    case Id::kSensorOffset:
-      t[kSensorOffset] = v[0];
-      break;
-    case Id::kSensorNonlinearity:
-      t[kSensorSquare] = v[0];
-      t[kSensorCube] = v[1];
-      break;
-    case Id::kSensorBandwidth:
-      t[kSensorLag] = LagOf(v[0]) - LagOf(file.plant.bearings.at(0).sensor.bandwidth_hz);
-      break;
-    case Id::kRotorMass:
-      t[kMass] = v[0] - 1.0;
-      break;
-    case Id::kStaticLoad:
-      t[kLoad] = v[1];
-      break;
-    case Id::kCouplingStiffness:
-      t[kSpring] = v[1];
-      break;
-    case Id::kSensorNoise:
-      break;  // nothing that moves
-    default:
-      RefuseEffect(entry, file);
+  Theta operator()(effect::TimingId id) const {
+    using effect::TimingId;
+    switch (id) {
+      case TimingId::kExtraDelay:
+        return One(kDelay, v(0) / (static_cast<double>(file.plant.period_ns) * 1e-9));
+      case TimingId::kDroppedSamples:
+      case TimingId::kSampleJitter:
+        break;
+    }
+    Refuse();
   }
-  return t;
-}
+
+  Theta operator()(effect::MagnetId id) const {
+    using effect::MagnetId;
+    switch (id) {
+      case MagnetId::kMagneticSaturation:
+        return One(kForceKnee, 1.0 / (v(0) * v(0)));  // exponent 2, which ExtendedRig writes
+      case MagnetId::kEddyCurrent:
+        return One(kForceLag, v(0));
+      case MagnetId::kForceConstant:
+      case MagnetId::kDisplacementStiffness:
+      case MagnetId::kCoilAsymmetry:
+      case MagnetId::kHysteresis:
+      case MagnetId::kMagneticCoupling:
+      case MagnetId::kAxisRotation:
+        break;
+    }
+    Refuse();
+  }
+
+  Theta operator()(effect::SensorId id) const {
+    using effect::SensorId;
+    switch (id) {
+      case SensorId::kSensorGain:
+        return One(kSensorGain, v(0) - 1.0);
+      case SensorId::kSensorOffset:
+        return One(kSensorOffset, v(0));
+      case SensorId::kSensorNonlinearity: {
+        Theta t = One(kSensorSquare, v(0));
+        t[kSensorCube] = v(1);
+        return t;
+      }
+      case SensorId::kSensorBandwidth:
+        return One(kSensorLag, LagOf(v(0)) - LagOf(file.plant.bearings.at(0).sensor.bandwidth_hz));
+      case SensorId::kSensorNoise:
+        return Zeros(0);  // nothing that moves
+      case SensorId::kSensorPosition:
+      case SensorId::kSensorRunout:
+      case SensorId::kMainsPickup:
+        break;
+    }
+    Refuse();
+  }
+
+  Theta operator()(effect::RotorId id) const {
+    using effect::RotorId;
+    switch (id) {
+      case RotorId::kRotorMass:
+        return One(kMass, v(0) - 1.0);
+      case RotorId::kUnbalance:
+      case RotorId::kShaftBow:
+      case RotorId::kShaftAnisotropy:
+      case RotorId::kModalFrequency:
+      case RotorId::kModalDamping:
+      case RotorId::kGyroscopicInertia:
+      case RotorId::kInternalDamping:
+      case RotorId::kBreathingCrack:
+        break;
+    }
+    Refuse();
+  }
+
+  Theta operator()(effect::ExternalId id) const {
+    using effect::ExternalId;
+    switch (id) {
+      case ExternalId::kStaticLoad:
+        return One(kLoad, v(1));
+      case ExternalId::kCouplingStiffness:
+        return One(kSpring, v(1));
+      case ExternalId::kMisalignment:
+      case ExternalId::kCrossCoupledStiffness:
+        break;
+    }
+    Refuse();
+  }
+
+  // Keys of the coil stand for the amplifier; a ball has neither housings nor wheels.
+  Theta operator()(effect::AmplifierId /*id*/) const { Refuse(); }
+  Theta operator()(effect::SupportId /*id*/) const { Refuse(); }
+  Theta operator()(effect::GearId /*id*/) const { Refuse(); }
+
+  [[nodiscard]] double v(std::size_t i) const { return entry.values[i]; }
+
+  [[nodiscard]] static Theta One(Parameter parameter, double value) {
+    Theta t = Zeros(0);
+    t[parameter] = value;
+    return t;
+  }
+
+  [[noreturn]] void Refuse() const {
+    throw BadInput(
+        fmt::format("rig {}: effects: `{}` has no place in the diagnosis of a ball between two "
+                    "magnets; write it into the keys of the coil or the magnet, or leave it out",
+                    file.numbers.name, effect::At(entry.id).name));
+  }
+};
 
 }  // namespace
 
@@ -90,7 +152,7 @@ Theta EffectsOf(const configuration::RigFile& file) {
           "from the beginning with strength 1",
           file.numbers.name, effect::At(entry.id).name, entry.at_s, entry.strength));
     }
-    all = ComposedWith(all, Of(entry, file));
+    all = ComposedWith(all, std::visit(MovedBy{entry, file}, effect::Placed(entry.id)));
   }
   return all;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <stdexcept>
 
 #include "diagnosis/levitator/origin.hpp"
 #include "diagnosis/report/effect_entry.hpp"
@@ -26,7 +27,7 @@ FileKey Scaled(std::string key, double by) {
 
 FileKey KeyOf(const configuration::RigFile& rig, std::size_t i) {
   const Row& row = Table()[i];
-  switch (i) {
+  switch (static_cast<Parameter>(i)) {
     case kDelay:
       return {"delay_samples", [file = rig.plant.delay_samples](double t) { return file + t; }};
     case kForceKnee:
@@ -48,8 +49,33 @@ FileKey KeyOf(const configuration::RigFile& rig, std::size_t i) {
       return Scaled("force_x_n", 1.0);
     case kSpring:
       return Scaled("direct_n_per_m", 1.0);
-    default:
-      break;
+    case kSupply:
+    case kResistance:
+    case kInductance:
+    case kProfile:
+    case kIronInductance:
+    case kDeadBand:
+    case kDriveCurve:
+    case kHeating:
+    case kMotionEmf:
+    case kEddyShare:
+    case kMutual:
+    case kAwaySupply:
+    case kAwayInductance:
+    case kProbeGain:
+    case kProbeOffset:
+    case kProbeLag:
+    case kForce:
+    case kForceDecay:
+    case kForceExponent:
+    case kForceAway:
+    case kSensorGain:
+    case kMass:
+    case kDamping:
+    case kDryFriction:
+      break;  // as the table names it
+    case kParameters:
+      throw std::logic_error("no parameter of the levitator");
   }
   const double base = row.name.starts_with("ratio") ? 1.0 : 0.0;
   return {std::string(row.name), [base](double t) { return base + t; }};

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace levitas::diagnosis {
@@ -161,7 +162,7 @@ RecordError Describe(const RigView& rig, const Hypothesis& h, double times) {
                                    one ? "is" : "are", 1000, h.size > 1.0 ? "small" : "large");
       error.mend = h.size > 1.0 ? "the unit is a, not ma" : "the unit is ma, not a";
       break;
-    default:
+    case RecordErrorKind::kDelayed:
       error.sentence =
           fmt::format("{} is {} row{} {} the other columns", names, std::abs(h.size),
                       std::abs(h.size) == 1.0 ? "" : "s", h.size > 0.0 ? "behind" : "ahead of");
@@ -170,6 +171,12 @@ RecordError Describe(const RigView& rig, const Hypothesis& h, double times) {
                                h.size > 0.0 ? "up" : "down");
       error.by_map = false;
       break;
+    case RecordErrorKind::kRate:
+    case RecordErrorKind::kQuantised:
+    case RecordErrorKind::kClipped:
+    case RecordErrorKind::kHeld:
+    case RecordErrorKind::kGaps:
+      throw std::logic_error(fmt::format("{}: no error of the wiring", Name(h.kind)));
   }
   return error;
 }
