@@ -29,7 +29,7 @@ bool OfTheTrain(const PlantParameters& parameters, const EffectConfig& entry) {
 }
 
 /// By which shape of the shaft an entry acts, at a place or of a mode.
-enum class Shape : std::uint8_t {
+enum class ActingShape : std::uint8_t {
   kNone,
   kLargest,     ///< of its mode, anywhere on the shaft
   kAtSensor,    ///< deflection at the sensor, moved
@@ -39,17 +39,17 @@ enum class Shape : std::uint8_t {
 };
 
 /// No default where shafts are acted on: the compiler names a new effect there.
-struct ShapeOf {
-  Shape operator()(effect::TimingId /*id*/) const { return Shape::kNone; }
-  Shape operator()(effect::AmplifierId /*id*/) const { return Shape::kNone; }
-  Shape operator()(effect::MagnetId /*id*/) const { return Shape::kNone; }
-  Shape operator()(effect::SupportId /*id*/) const { return Shape::kNone; }
-  Shape operator()(effect::GearId /*id*/) const { return Shape::kNone; }
+struct ActingShapeOf {
+  ActingShape operator()(effect::TimingId /*id*/) const { return ActingShape::kNone; }
+  ActingShape operator()(effect::AmplifierId /*id*/) const { return ActingShape::kNone; }
+  ActingShape operator()(effect::MagnetId /*id*/) const { return ActingShape::kNone; }
+  ActingShape operator()(effect::SupportId /*id*/) const { return ActingShape::kNone; }
+  ActingShape operator()(effect::GearId /*id*/) const { return ActingShape::kNone; }
 
-  Shape operator()(SensorId id) const {
+  ActingShape operator()(SensorId id) const {
     switch (id) {
       case SensorId::kSensorPosition:
-        return Shape::kAtSensor;
+        return ActingShape::kAtSensor;
       case SensorId::kSensorGain:
       case SensorId::kSensorOffset:
       case SensorId::kSensorNonlinearity:
@@ -59,19 +59,19 @@ struct ShapeOf {
       case SensorId::kSensorNoise:
         break;
     }
-    return Shape::kNone;
+    return ActingShape::kNone;
   }
 
-  Shape operator()(RotorId id) const {
+  ActingShape operator()(RotorId id) const {
     switch (id) {
       case RotorId::kShaftBow:
-        return Shape::kLargest;
+        return ActingShape::kLargest;
       case RotorId::kBreathingCrack:
-        return Shape::kCurvature;
+        return ActingShape::kCurvature;
       case RotorId::kInternalDamping:
-        return Shape::kBending;
+        return ActingShape::kBending;
       case RotorId::kUnbalance:
-        return Shape::kDeflection;
+        return ActingShape::kDeflection;
       case RotorId::kShaftAnisotropy:
       case RotorId::kModalFrequency:
       case RotorId::kModalDamping:
@@ -79,10 +79,10 @@ struct ShapeOf {
       case RotorId::kRotorMass:
         break;
     }
-    return Shape::kNone;
+    return ActingShape::kNone;
   }
 
-  Shape operator()(ExternalId id) const {
+  ActingShape operator()(ExternalId id) const {
     switch (id) {
       case ExternalId::kMisalignment:
       case ExternalId::kCouplingStiffness:
@@ -90,32 +90,32 @@ struct ShapeOf {
       case ExternalId::kStaticLoad:
         break;
     }
-    return Shape::kDeflection;
+    return ActingShape::kDeflection;
   }
 };
 
 std::vector<double> EntryShape(const PlantParameters& parameters, const EffectConfig& entry) {
   if (OfTheTrain(parameters, entry)) return {};
   const rotor::ModalRotor& modes = parameters.modes;
-  switch (std::visit(ShapeOf{}, effect::Placed(entry.id))) {
-    case Shape::kNone:
+  switch (std::visit(ActingShapeOf{}, effect::Placed(entry.id))) {
+    case ActingShape::kNone:
       break;
-    case Shape::kLargest:
+    case ActingShape::kLargest:
       // The largest deflection that a unit of this mode makes anywhere on the shaft.
       return {modes.shapes.col(static_cast<Eigen::Index>(FlexibleMode(parameters, entry)))
                   .cwiseAbs()
                   .maxCoeff()};
-    case Shape::kAtSensor:
+    case ActingShape::kAtSensor:
       return rotor::DeflectionAt(
           modes, parameters.config.bearings[entry.bearing].sensor_z_m + entry.values[0]);
-    case Shape::kCurvature:
+    case ActingShape::kCurvature:
       return rotor::CurvatureAt(modes, entry.values[0]);
-    case Shape::kBending: {
+    case ActingShape::kBending: {
       auto bending = rotor::DeflectionAt(modes, entry.values[0]);
       std::fill_n(bending.begin(), modes.rigid_modes, 0.0);
       return bending;
     }
-    case Shape::kDeflection:
+    case ActingShape::kDeflection:
       return rotor::DeflectionAt(modes, entry.values[0]);
   }
   return {};
