@@ -8,30 +8,29 @@ namespace {
 using diagnosis::Isolation;
 using diagnosis::Prediction;
 
-bool Has(const std::vector<std::string>& list, const std::string& effect) {
+bool Has(const std::vector<effect::Id>& list, effect::Id effect) {
   return std::find(list.begin(), list.end(), effect) != list.end();
 }
 
 }  // namespace
 
-std::vector<std::string> NamedOrTied(const std::string& verdict,
-                                     const std::vector<std::string>& named,
-                                     const std::vector<std::string>& ties) {
+std::vector<effect::Id> NamedOrTied(const std::string& verdict,
+                                    const std::vector<effect::Id>& named,
+                                    const std::vector<effect::Id>& ties) {
   if (named.empty() || (verdict != "effect" && verdict != "suspected")) return {};
-  std::vector<std::string> all{named.front()};
+  std::vector<effect::Id> all{named.front()};
   all.insert(all.end(), ties.begin(), ties.end());
   return all;
 }
 
-Isolation KindOf(const std::string& hidden,
-                 const std::vector<std::string>& named_or_tied) noexcept {
+Isolation KindOf(effect::Id hidden, const std::vector<effect::Id>& named_or_tied) noexcept {
   if (named_or_tied.empty()) return Isolation::kNotVisible;
   if (!Has(named_or_tied, hidden)) return Isolation::kTakenFor;
   return named_or_tied.size() == 1 ? Isolation::kFound : Isolation::kTied;
 }
 
-std::vector<std::string> Foretold(const Prediction& prediction) {
-  std::vector<std::string> all = prediction.ties;
+std::vector<effect::Id> Foretold(const Prediction& prediction) {
+  std::vector<effect::Id> all = prediction.ties;
   const Isolation isolation = prediction.isolation;
   if (isolation == Isolation::kFound || isolation == Isolation::kTied) {
     all.insert(all.begin(), prediction.effect);
@@ -39,10 +38,10 @@ std::vector<std::string> Foretold(const Prediction& prediction) {
   return all;
 }
 
-RowEntries CompareRow(const Prediction& prediction, const std::vector<std::string>& named_or_tied) {
-  const std::vector<std::string> foretold = Foretold(prediction);
+RowEntries CompareRow(const Prediction& prediction, const std::vector<effect::Id>& named_or_tied) {
+  const std::vector<effect::Id> foretold = Foretold(prediction);
   RowEntries entries;
-  const auto compare = [&](const std::string& effect) {
+  const auto compare = [&](effect::Id effect) {
     ++entries.all;
     if (Has(foretold, effect) == Has(named_or_tied, effect)) ++entries.right;
   };

@@ -18,15 +18,15 @@
 namespace levitas::accuracy {
 
 /// First cause and what is tied with it; empty when nothing is named.
-[[nodiscard]] std::vector<std::string> NamedOrTied(const std::string& verdict,
-                                                   const std::vector<std::string>& named,
-                                                   const std::vector<std::string>& ties);
+[[nodiscard]] std::vector<effect::Id> NamedOrTied(const std::string& verdict,
+                                                  const std::vector<effect::Id>& named,
+                                                  const std::vector<effect::Id>& ties);
 
-[[nodiscard]] diagnosis::Isolation KindOf(const std::string& hidden,
-                                          const std::vector<std::string>& named_or_tied) noexcept;
+[[nodiscard]] diagnosis::Isolation KindOf(effect::Id hidden,
+                                          const std::vector<effect::Id>& named_or_tied) noexcept;
 
 /// What a prediction says would be named or tied.
-[[nodiscard]] std::vector<std::string> Foretold(const diagnosis::Prediction& prediction);
+[[nodiscard]] std::vector<effect::Id> Foretold(const diagnosis::Prediction& prediction);
 
 struct RowEntries {
   std::size_t all{}, right{};
@@ -34,6 +34,6 @@ struct RowEntries {
 
 /// Over the hidden effect itself and the prediction's alternatives.
 [[nodiscard]] RowEntries CompareRow(const diagnosis::Prediction& prediction,
-                                    const std::vector<std::string>& named_or_tied);
+                                    const std::vector<effect::Id>& named_or_tied);
 
 }  // namespace levitas::accuracy

@@ -10,17 +10,20 @@
 
 #include "benchmark/accuracy/true_value.hpp"
 #include "numerics/normal_distribution.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::accuracy {
 namespace {
 
-bool Holds(const std::vector<std::string>& list, const std::string& name) {
-  return std::find(list.begin(), list.end(), name) != list.end();
+bool Holds(const std::vector<effect::Id>& list, effect::Id effect) {
+  return std::find(list.begin(), list.end(), effect) != list.end();
 }
+
+std::string NameOf(effect::Id id) { return std::string(effect::At(id).name); }
 
 std::string First(const TrialScore& o) {
   if ((o.verdict != "effect" && o.verdict != "suspected") || o.named.empty()) return o.verdict;
-  return o.named.front();
+  return NameOf(o.named.front());
 }
 
 double Median(std::vector<double> values) {
@@ -53,7 +56,7 @@ bool TrialScore::Right() const {
          (named.front() == truth.front() || Holds(ties, truth.front()));
 }
 
-bool TrialScore::Names(const std::string& effect) const {
+bool TrialScore::Names(effect::Id effect) const {
   return Holds(named, effect) || Holds(ties, effect);
 }
 
@@ -82,11 +85,14 @@ TrialScore Judge(const TrialPlan& plan, const GroundTruth& ground_truth,
   if (ground_truth.outside != Unmodelled::kNothing) o.outside = Name(ground_truth.outside);
   o.drawn = ground_truth.size;
   o.verdict = Word(report.verdict);
-  for (const auto& cause : report.causes) o.named.push_back(cause.effect);
-  o.ties = report.also_possible;
+  for (const auto& cause : report.causes) {
+    if (const effect::Row* row = effect::Find(cause.effect)) o.named.push_back(row->id);
+  }
+  o.ties = effect::IdsOf(report.also_possible);
+  const std::string hidden = o.truth.empty() ? "" : NameOf(o.truth.front());
   o.score_nat = report.candidates.empty() ? 0.0 : report.candidates.front().evidence_nat;
   for (const auto& c : report.candidates) {
-    if (!o.truth.empty() && c.effect == o.truth.front()) {
+    if (!o.truth.empty() && c.effect == hidden) {
       o.available_nat = std::max(o.available_nat, c.evidence_nat);
     }
     if (o.nearest.size() < 7) {
@@ -98,7 +104,7 @@ TrialScore Judge(const TrialPlan& plan, const GroundTruth& ground_truth,
   o.remainder_sigma = report.residual.sigma;
   o.achieved = report.validation.achieved.fraction;
   for (const auto& p : report.parameters) {
-    if (o.truth.empty() || p.effect != o.truth.front()) continue;
+    if (o.truth.empty() || p.effect != hidden) continue;
     const double truth = TrueValue(p, ground_truth).value_or(0.0);
     if (truth == 0.0) continue;
     const double deviation = 0.5 * (p.high - p.low) / numerics::kInterval90;
@@ -111,7 +117,7 @@ TrialScore Judge(const TrialPlan& plan, const GroundTruth& ground_truth,
 
 void AddInformedDiagnosis(const diagnosis::DiagnosisReport& informed, std::optional<double> held,
                           TrialScore& outcome) {
-  const std::string& truth = outcome.truth.front();
+  const std::string truth = NameOf(outcome.truth.front());
   for (const auto& candidate : informed.candidates) {
     if (candidate.effect != truth) continue;
     outcome.available_nat = std::max(outcome.available_nat, candidate.evidence_nat);
@@ -128,7 +134,7 @@ namespace {
 
 /// Counts of a whole benchmark.
 struct Tally {
-  std::map<std::string, std::map<Size, Count>> by_effect;
+  std::map<effect::Id, std::map<Size, Count>, effect::ByName> by_effect;
   std::map<Size, Count> by_size;
   Count clean, outside, several;
   int several_main = 0;
@@ -168,8 +174,8 @@ void Tally::AddSingle(const TrialScore& o) {
   by_effect[o.truth.front()][o.size()].Add(o);
   by_size[o.size()].Add(o);
   if (o.informed_failed) {
-    failed +=
-        fmt::format("  {} {} ({}, {})\n", o.seed, o.truth.front(), Name(o.size()), HeldText(o));
+    failed += fmt::format("  {} {} ({}, {})\n", o.seed, NameOf(o.truth.front()), Name(o.size()),
+                          HeldText(o));
   }
   if (o.size() != Size::kClear || !o.Right()) return;
   achieved.push_back(o.achieved);
@@ -191,7 +197,7 @@ std::string Tables(const std::vector<TrialScore>& outcomes) {
                        counts[Size::kModerate].Text(), counts[Size::kFaint].Text(),
                        counts[Size::kBelow].Text());
   };
-  for (auto& [effect, counts] : tally.by_effect) line(effect, counts);
+  for (auto& [effect, counts] : tally.by_effect) line(NameOf(effect), counts);
   line("all", tally.by_size);
   if (!tally.failed.empty()) {
     out += "\ninformed diagnosis failed, counted as not named in the size drawn:\n" + tally.failed;
@@ -215,7 +221,7 @@ std::string ConfusionTable(const std::vector<TrialScore>& outcomes) {
   std::map<std::string, std::map<std::string, int>> cells;
   for (const TrialScore& o : outcomes) {
     if (o.truth.size() > 1) continue;
-    const std::string truth = !o.truth.empty()    ? o.truth.front()
+    const std::string truth = !o.truth.empty()    ? NameOf(o.truth.front())
                               : o.outside.empty() ? "(nothing)"
                                                   : "(" + o.outside + ")";
     ++cells[truth][First(o)];

@@ -26,13 +26,13 @@ namespace levitas::accuracy {
 /// One trial's outcome, as one row of the bench.
 struct TrialScore {
   std::uint64_t seed{};
-  std::vector<std::string> truth;    ///< empty: nothing hidden
-  std::vector<std::string> in_file;  ///< what the diagnosis's rig file holds
-  std::string outside;               ///< empty: nothing outside the vocabulary
-  double drawn{};                    ///< size relative to what is drawn as clear
-  std::string verdict;               ///< "none", "effect", "suspected", "unknown"
-  std::vector<std::string> named;    ///< all causes, in order
-  std::vector<std::string> ties;
+  std::vector<effect::Id> truth;    ///< empty: nothing hidden
+  std::vector<effect::Id> in_file;  ///< what the diagnosis's rig file holds
+  std::string outside;              ///< empty: nothing outside the vocabulary
+  double drawn{};                   ///< size relative to what is drawn as clear
+  std::string verdict;              ///< "none", "effect", "suspected", "unknown"
+  std::vector<effect::Id> named;    ///< all causes, in order
+  std::vector<effect::Id> ties;
   double score_nat{};
   double available_nat{};   ///< evidence for the main effect, as far as a fit found it
   double record_nat{-1.0};  ///< AvailableEvidence; -1 = not computed, or none
@@ -45,7 +45,7 @@ struct TrialScore {
   double parameter_sigmas{-1.0};
   double seconds{};
   /// Of several effects, those not named, with their evidence in the records given the others.
-  std::vector<std::pair<std::string, std::optional<double>>> missed;
+  std::vector<std::pair<effect::Id, std::optional<double>>> missed;
 
   [[nodiscard]] Size size() const noexcept {
     if (!informed_failed) return SizeOf(available_nat);
@@ -53,7 +53,7 @@ struct TrialScore {
   }
   [[nodiscard]] bool Right() const;
   [[nodiscard]] bool Partly() const;
-  [[nodiscard]] bool Names(const std::string& effect) const;  ///< at any rank, or as a tie
+  [[nodiscard]] bool Names(effect::Id effect) const;  ///< at any rank, or as a tie
   [[nodiscard]] bool NamesMain() const;
   [[nodiscard]] bool NamesAll() const;
   /// Of several, whether records that can be read hold every one clearly. What was named is.

@@ -54,13 +54,11 @@ class Maker {
     if (plan_.in_file) {
       trial.rig.plant.effects = Draw(trial.ground_truth.size);
       for (const auto& entry : trial.rig.plant.effects) {
-        trial.ground_truth.in_file.emplace_back(effect::At(entry.id).name);
+        trial.ground_truth.in_file.push_back(entry.id);
       }
       return trial;
     }
-    for (const Id id : plan_.hidden) {
-      trial.ground_truth.effects.emplace_back(effect::At(id).name);
-    }
+    trial.ground_truth.effects = plan_.hidden;
     return trial;
   }
 

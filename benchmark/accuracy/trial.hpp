@@ -48,8 +48,8 @@ enum class Size : std::uint8_t { kBelow, kFaint, kModerate, kClear };
 
 /// Ground truth. Never handed to the diagnosis.
 struct GroundTruth {
-  std::vector<std::string> effects;  ///< none when the rig file holds them
-  std::vector<std::string> in_file;
+  std::vector<effect::Id> effects;  ///< none when the rig file holds them
+  std::vector<effect::Id> in_file;
   Unmodelled outside{Unmodelled::kNothing};
   plant::PlantParameters truth;
   std::vector<effect::EffectConfig> hidden;  ///< as drawn; part of `truth`

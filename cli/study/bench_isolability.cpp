@@ -16,6 +16,7 @@
 #include "diagnosis/isolability/foretell.hpp"
 #include "diagnosis/records/levitated_interval.hpp"
 #include "diagnosis/report/build_report.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -25,20 +26,28 @@ using diagnosis::Prediction;
 
 /// Of a diagnosis, as far as it is compared.
 struct Answer {
-  std::vector<std::string> truth, named, ties;
+  std::vector<effect::Id> truth, named, ties;
   std::string verdict;
 };
 
 struct Compared {
   std::uint64_t seed{};
-  std::string hidden;
+  effect::Id hidden{};
   std::optional<Prediction> prediction;  ///< none: there is no healthy record of this rig
   Isolation answered{};
-  std::vector<std::string> named_or_tied;
+  std::vector<effect::Id> named_or_tied;
   accuracy::RowEntries entries;
 
   [[nodiscard]] bool agrees() const noexcept { return prediction->isolation == answered; }
 };
+
+std::vector<effect::Id> EffectsOf(const nlohmann::json& names) {
+  const auto read = names.get<std::vector<std::string>>();
+  std::vector<effect::Id> ids = effect::IdsOf(read);
+  if (ids.size() == read.size()) return ids;
+  throw BadInput(
+      fmt::format("--answered: not all are effects of the catalogue: {}", fmt::join(read, ", ")));
+}
 
 std::map<std::uint64_t, Answer> ReadAnswers(const std::string& path) {
   std::map<std::uint64_t, Answer> answers;
@@ -46,8 +55,8 @@ std::map<std::uint64_t, Answer> ReadAnswers(const std::string& path) {
   std::ifstream file(path);
   try {
     for (const auto& trial : nlohmann::json::parse(file).at("trials")) {
-      answers[trial.at("seed")] = {trial.at("truth"), trial.at("named"), trial.at("ties"),
-                                   trial.at("verdict")};
+      answers[trial.at("seed")] = {EffectsOf(trial.at("truth")), EffectsOf(trial.at("named")),
+                                   EffectsOf(trial.at("ties")), trial.at("verdict")};
     }
   } catch (const nlohmann::json::exception& wrong) {
     throw BadInput(fmt::format("{}: no --json of amb bench diagnosis: {}", path, wrong.what()));
@@ -99,7 +108,8 @@ Compared Compare(const accuracy::TrialPlan& plan, const accuracy::TestRig& bench
   } else {
     const auto found = answers.find(plan.seed);
     if (found == answers.end() || found->second.truth != trial.ground_truth.effects) {
-      throw BadInput(fmt::format("--answered: no answer for trial {} ({})", plan.seed, out.hidden));
+      throw BadInput(fmt::format("--answered: no answer for trial {} ({})", plan.seed,
+                                 effect::At(out.hidden).name));
     }
     answer = found->second;
   }
@@ -112,30 +122,31 @@ Compared Compare(const accuracy::TrialPlan& plan, const accuracy::TestRig& bench
 
 void PrintCompared(const Compared& one) {
   if (!one.prediction) {
-    fmt::print("{:>6} {:<25} no healthy record of this rig\n", one.seed, one.hidden);
+    fmt::print("{:>6} {:<25} no healthy record of this rig\n", one.seed,
+               effect::At(one.hidden).name);
     return;
   }
   const Prediction& p = *one.prediction;
-  fmt::print("{:>6} {:<25} {:<12}{:>7.1f} nat {:>3.0f} % -> {:<12} {}{}\n", one.seed, one.hidden,
-             Word(p.isolation), p.evidence_nat, 100.0 * p.probability, Word(one.answered),
-             fmt::join(one.named_or_tied, ", "),
+  fmt::print("{:>6} {:<25} {:<12}{:>7.1f} nat {:>3.0f} % -> {:<12} {}{}\n", one.seed,
+             effect::At(one.hidden).name, Word(p.isolation), p.evidence_nat, 100.0 * p.probability,
+             Word(one.answered), fmt::join(effect::NamesOf(one.named_or_tied), ", "),
              one.agrees() ? ""
                           : fmt::format("   DIFFERS (foretold: {})",
-                                        fmt::join(accuracy::Foretold(p), ", ")));
+                                        fmt::join(effect::NamesOf(accuracy::Foretold(p)), ", ")));
   static_cast<void>(std::fflush(stdout));
 }
 
 nlohmann::ordered_json ComparedJson(const Compared& one) {
   const Prediction& p = *one.prediction;
   return {{"seed", one.seed},
-          {"hidden", one.hidden},
+          {"hidden", effect::At(one.hidden).name},
           {"foretold", Word(p.isolation)},
-          {"foretold_named", accuracy::Foretold(p)},
+          {"foretold_named", effect::NamesOf(accuracy::Foretold(p))},
           {"detectable_nat", p.detectable_nat},
           {"evidence_nat", p.evidence_nat},
           {"probability", p.probability},
           {"answered", Word(one.answered)},
-          {"answered_named", one.named_or_tied},
+          {"answered_named", effect::NamesOf(one.named_or_tied)},
           {"agrees", one.agrees()},
           {"entries", one.entries.all},
           {"entries_right", one.entries.right}};

@@ -44,23 +44,23 @@ void WriteTrial(const accuracy::Trial& trial, const std::string& root, std::uint
   std::filesystem::create_directories(folder + "/ground_truth");
   accuracy::WriteCsv(trial.records, trial.rig.numbers, folder);
   WriteWholeFile(folder + "/rig.yaml", configuration::WriteRig(trial.rig));
-  nlohmann::ordered_json truth{{"effects", trial.ground_truth.effects},
+  nlohmann::ordered_json truth{{"effects", effect::NamesOf(trial.ground_truth.effects)},
                                {"outside", Name(trial.ground_truth.outside)}};
   WriteJsonFile(folder + "/ground_truth/truth.json", truth);
 }
 
 /// Available evidence for one hidden effect, given the other hidden effects.
-std::optional<double> HeldFor(const accuracy::Trial& trial, const std::string& effect) {
+std::optional<double> HeldFor(const accuracy::Trial& trial, effect::Id effect) {
   std::vector<effect::EffectConfig> one;
   std::vector<effect::EffectConfig> rest;
   for (const effect::EffectConfig& entry : trial.ground_truth.hidden) {
-    (effect::At(entry.id).name == effect ? one : rest).push_back(entry);
+    (entry.id == effect ? one : rest).push_back(entry);
   }
   return accuracy::AvailableEvidence(trial.rig, trial.records, one, rest);
 }
 
 void ListMissed(const accuracy::Trial& trial, accuracy::TrialScore& outcome) {
-  for (const std::string& effect : outcome.truth) {
+  for (const effect::Id effect : outcome.truth) {
     if (!outcome.Names(effect)) outcome.missed.emplace_back(effect, HeldFor(trial, effect));
   }
 }
@@ -94,24 +94,26 @@ accuracy::TrialScore Try(const accuracy::TrialPlan& plan, const accuracy::TestRi
 }
 
 std::string Hidden(const accuracy::TrialScore& o) {
-  if (!o.truth.empty()) return fmt::format("{}", fmt::join(o.truth, "+"));
-  if (!o.in_file.empty()) return fmt::format("({} in the file)", fmt::join(o.in_file, "+"));
+  if (!o.truth.empty()) return fmt::format("{}", fmt::join(effect::NamesOf(o.truth), "+"));
+  if (!o.in_file.empty())
+    return fmt::format("({} in the file)", fmt::join(effect::NamesOf(o.in_file), "+"));
   return o.outside.empty() ? "(nothing)" : o.outside;
 }
 
 void PrintOne(const accuracy::TrialScore& o) {
   fmt::print("{:>6} {:<26}{:<9}-> {:<10}{:<58}{:>7.1f} nat {:.1f} s{}\n", o.seed, Hidden(o),
              o.truth.empty() ? "" : accuracy::Name(o.size()), o.verdict,
-             fmt::format("{}{}{}", fmt::join(o.named, ", "), o.ties.empty() ? "" : " | ",
-                         fmt::join(o.ties, ", ")),
+             fmt::format("{}{}{}", fmt::join(effect::NamesOf(o.named), ", "),
+                         o.ties.empty() ? "" : " | ", fmt::join(effect::NamesOf(o.ties), ", ")),
              o.score_nat, o.seconds, o.Right() ? "" : (o.Partly() ? "   (partly)" : "   WRONG"));
   for (const auto& [effect, held] : o.missed) {
-    fmt::print("       not named: {}, of which the records hold {} given the others\n", effect,
+    fmt::print("       not named: {}, of which the records hold {} given the others\n",
+               effect::At(effect).name,
                held ? fmt::format("{:.1f} nat", *held) : "an unknown amount");
   }
   if (o.informed_failed) {
     fmt::print("       informed diagnosis failed: it does not name {}; the records hold {}\n",
-               o.truth.front(),
+               effect::At(o.truth.front()).name,
                o.record_nat < 0.0 ? "an unknown amount" : fmt::format("{:.1f} nat", o.record_nat));
   }
   static_cast<void>(std::fflush(stdout));
@@ -166,17 +168,17 @@ std::vector<accuracy::TrialPlan> Plans(const BenchOptions& options,
 nlohmann::ordered_json Json(const accuracy::TrialScore& o) {
   auto missed = nlohmann::ordered_json::array();
   for (const auto& [effect, held] : o.missed) {
-    missed.push_back({{"effect", effect}, {"held_nat", held.value_or(-1.0)}});
+    missed.push_back({{"effect", effect::At(effect).name}, {"held_nat", held.value_or(-1.0)}});
   }
   return {{"seed", o.seed},
-          {"truth", o.truth},
+          {"truth", effect::NamesOf(o.truth)},
           {"outside", o.outside},
-          {"in_file", o.in_file},
+          {"in_file", effect::NamesOf(o.in_file)},
           {"drawn", o.drawn},
           {"size", o.truth.empty() ? "" : accuracy::Name(o.size())},
           {"verdict", o.verdict},
-          {"named", o.named},
-          {"ties", o.ties},
+          {"named", effect::NamesOf(o.named)},
+          {"ties", effect::NamesOf(o.ties)},
           {"score_nat", o.score_nat},
           {"available_nat", o.available_nat},
           {"held_nat", o.record_nat},

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "plant_sim/effect/catalogue.hpp"
 #include "report/text/text_table.hpp"
 
 namespace levitas::cli {
@@ -22,9 +23,9 @@ std::string AnswerText(const Prediction& p) {
     case Isolation::kFound:
       return p.by_moved_number ? "found by its number alone" : "found";
     case Isolation::kTied:
-      return fmt::format("tied with {}", fmt::join(p.ties, ", "));
+      return fmt::format("tied with {}", fmt::join(effect::NamesOf(p.ties), ", "));
     case Isolation::kTakenFor:
-      return fmt::format("taken for {}", fmt::join(p.ties, ", "));
+      return fmt::format("taken for {}", fmt::join(effect::NamesOf(p.ties), ", "));
     case Isolation::kNotVisible:
       break;
   }
@@ -35,7 +36,9 @@ std::string Nat(double nat) {
   return std::isfinite(nat) ? fmt::format("{:.1f}", nat) : std::string("-");
 }
 
-const Prediction* Before(const std::vector<Foretold>& all, const std::string& effect) {
+std::string NameOf(effect::Id id) { return std::string(effect::At(id).name); }
+
+const Prediction* Before(const std::vector<Foretold>& all, effect::Id effect) {
   for (const Foretold& one : all) {
     if (one.prediction.effect == effect) return &one.prediction;
   }
@@ -48,7 +51,7 @@ std::vector<std::string> Helped(const std::vector<Foretold>& all, const Tried& t
   for (const diagnosis::Outcome& outcome : tried.outcomes) {
     const Prediction* before = Before(all, outcome.effect);
     if (before != nullptr && diagnosis::Splits(*before, outcome.after)) {
-      helped.push_back(outcome.effect);
+      helped.push_back(NameOf(outcome.effect));
     }
   }
   return helped;
@@ -61,14 +64,14 @@ nlohmann::ordered_json Number(double value) {
 }
 
 nlohmann::ordered_json FaultJson(const Prediction& p) {
-  return {{"effect", p.effect},
+  return {{"effect", NameOf(p.effect)},
           {"answer", Word(p.isolation)},
           {"detectable_nat", Number(p.detectable_nat)},
           {"evidence_nat", Number(p.evidence_nat)},
           {"visible_from", Number(p.visible_from)},
           {"probability", Number(p.probability)},
           {"by_moved_number", p.by_moved_number},
-          {"ties", p.ties}};
+          {"ties", effect::NamesOf(p.ties)}};
 }
 
 }  // namespace
@@ -78,12 +81,13 @@ std::string IsolabilityText(const std::vector<Foretold>& all) {
   table.Add({"fault", "where", "size", "nat left", "evidence", "from", "next nat", "chance %"});
   for (const Foretold& one : all) {
     const Prediction& p = one.prediction;
-    table.Add(
-        {p.effect, one.fault.place, one.fault.size, Nat(p.detectable_nat), Nat(p.evidence_nat),
-         p.visible_from > 0.0 && p.visible_from < 100.0 ? fmt::format("{:.2g}", p.visible_from)
-                                                        : std::string("-"),
-         p.alternatives.empty() ? "-" : Nat(p.alternatives.front().evidence_nat),
-         fmt::format("{:.0f}", 100.0 * p.probability)});
+    table.Add({NameOf(p.effect), one.fault.place, one.fault.size, Nat(p.detectable_nat),
+               Nat(p.evidence_nat),
+               p.visible_from > 0.0 && p.visible_from < 100.0
+                   ? fmt::format("{:.2g}", p.visible_from)
+                   : std::string("-"),
+               p.alternatives.empty() ? "-" : Nat(p.alternatives.front().evidence_nat),
+               fmt::format("{:.0f}", 100.0 * p.probability)});
   }
   std::string text =
       table.Text() +
@@ -94,19 +98,20 @@ std::string IsolabilityText(const std::vector<Foretold>& all) {
   std::vector<std::string> hidden;
   for (const Foretold& one : all) {
     const Prediction& p = one.prediction;
-    if (p.isolation == Isolation::kFound) found.push_back(p.effect);
-    if (p.isolation == Isolation::kNotVisible) hidden.push_back(p.effect);
+    if (p.isolation == Isolation::kFound) found.push_back(NameOf(p.effect));
+    if (p.isolation == Isolation::kNotVisible) hidden.push_back(NameOf(p.effect));
   }
   text += fmt::format("Found alone ({}): {}\n", found.size(), fmt::join(found, ", "));
   text += fmt::format("Not visible at this size ({}): {}\n", hidden.size(),
                       hidden.empty() ? "none" : fmt::format("{}", fmt::join(hidden, ", ")));
   const auto groups = TiedGroups(all);
   text += fmt::format("Ties ({}):{}\n", groups.size(), groups.empty() ? " none" : "");
-  for (const auto& group : groups) text += fmt::format("  {}\n", fmt::join(group, " | "));
+  for (const auto& group : groups)
+    text += fmt::format("  {}\n", fmt::join(effect::NamesOf(group), " | "));
   for (const Foretold& one : all) {
     const Isolation isolation = one.prediction.isolation;
     if (isolation != Isolation::kTied && isolation != Isolation::kTakenFor) continue;
-    text += fmt::format("    {}: {}\n", one.prediction.effect, AnswerText(one.prediction));
+    text += fmt::format("    {}: {}\n", NameOf(one.prediction.effect), AnswerText(one.prediction));
   }
   return text;
 }
@@ -124,8 +129,8 @@ std::string SplitsText(const std::vector<Foretold>& all, const std::vector<Tried
   }
   for (const Foretold& one : all) {
     const Prediction& p = one.prediction;
-    if (p.isolation == Isolation::kFound || helped_by_any.contains(p.effect)) continue;
-    text += fmt::format("  {}: {}; none of these helps\n", p.effect, AnswerText(p));
+    if (p.isolation == Isolation::kFound || helped_by_any.contains(NameOf(p.effect))) continue;
+    text += fmt::format("  {}: {}; none of these helps\n", NameOf(p.effect), AnswerText(p));
   }
   return text;
 }
@@ -152,13 +157,14 @@ nlohmann::ordered_json IsolabilityJson(const std::vector<Foretold>& all,
     entry["place"] = one.fault.place;
     entry["size"] = one.fault.size;
     for (const diagnosis::Alternative& other : one.prediction.alternatives) {
-      entry["matrix"][other.effect] = {{"evidence_nat", Number(other.evidence_nat)},
-                                       {"left_nat", Number(other.left_nat)},
-                                       {"place", other.place}};
+      entry["matrix"][NameOf(other.effect)] = {{"evidence_nat", Number(other.evidence_nat)},
+                                               {"left_nat", Number(other.left_nat)},
+                                               {"place", other.place}};
     }
     json["faults"].push_back(entry);
   }
-  json["tied_groups"] = TiedGroups(all);
+  json["tied_groups"] = nlohmann::ordered_json::array();
+  for (const auto& group : TiedGroups(all)) json["tied_groups"].push_back(effect::NamesOf(group));
   json["tried"] = nlohmann::ordered_json::array();
   for (const Tried& one : tried) {
     nlohmann::ordered_json entry{

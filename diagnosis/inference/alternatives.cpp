@@ -1,10 +1,13 @@
 #include "diagnosis/inference/alternatives.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <limits>
 #include <utility>
 
 #include "diagnosis/inference/ranking.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
 
@@ -54,7 +57,7 @@ CauseSet BestAlternative(const EvidenceLandscape& landscape, const SelectionRule
     if (candidate.refitted) continue;
     ++tried;
     landscape.ReportProgress(0.78 + 0.03 * static_cast<double>(tried),
-                             "refitting " + candidate.effect);
+                             fmt::format("refitting {}", effect::At(candidate.effect).name));
     std::vector<Hypothesis> causes = leader.causes;
     causes[0] = landscape.hypotheses()[candidate.hypothesis];
     Refined fit = landscape.Refit(causes, best.fit.evidence - judging.decisive_nat);

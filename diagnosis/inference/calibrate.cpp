@@ -70,7 +70,7 @@ Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::
                            const std::vector<Record>& all, const std::vector<Record>& records,
                            const Gains& gains, const ObserverSpeed& speed, int passes) {
   const std::vector<Term> held = Held(terms);
-  const Search cautious(rig, held, "", search.model_error_share());
+  const Search cautious(rig, held, std::nullopt, search.model_error_share());
   const std::vector<Record> part = Spans(all, kStartRows, rig.period_s);
   const std::vector<double> start =
       FromFar(rig, cautious, held, Spans(all, kFastRows, rig.period_s), part,
@@ -91,7 +91,7 @@ Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::
 
 void LearnFromHealthy(const RigView& rig, const std::vector<Record>& healthy,
                       const Judging& judging, std::vector<Term>& terms) {
-  const Search search(rig, terms, "", judging.model_error_share);
+  const Search search(rig, terms, std::nullopt, judging.model_error_share);
   const std::vector<Record> records = Spans(healthy, kHealthyRows, rig.period_s);
   constexpr int kPasses = 8;
   const Refined fit = CalibrateNuisances(rig, search, terms, healthy, records,

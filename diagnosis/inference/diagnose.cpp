@@ -65,7 +65,8 @@ void Describe(const std::vector<Term>& terms, const CauseSelection& found, const
 void AddEvents(const RecordLandscape& landscape, const std::vector<Record>& all_records,
                const Judging& judging, const Residual& residual, CauseSelection& found) {
   for (const Candidate& event : FindEvents(landscape.rig(), all_records, residual)) {
-    if (event.effect == "sensor_noise" && residual.sigma > judging.unexplained_sigma) continue;
+    if (event.effect == effect::Id::kSensorNoise && residual.sigma > judging.unexplained_sigma)
+      continue;
     found.candidates.push_back(event);
     if (event.score < judging.decisive_nat) continue;
     Hypothesis cause;

@@ -41,20 +41,21 @@
 #include "diagnosis/inference/verdict.hpp"
 #include "diagnosis/model/observer_speed.hpp"
 #include "diagnosis/terms/terms.hpp"
+#include "plant_sim/effect/effect_config.hpp"
 
 namespace levitas::diagnosis {
 
 struct Settings {
   bool quick{};  ///< a first answer: the strongest cause, from a part of the records
   std::size_t most_causes{3};
-  std::string only;  ///< the one effect that is looked for; empty: all
+  std::optional<effect::Id> only;  ///< the one effect that is looked for; none: all
   Judging judging;
   /// Share done and what is being done; may be empty.
   std::function<void(double, const std::string&)> progress;
 };
 
 struct Candidate {
-  std::string effect;
+  effect::Id effect{};
   std::string place;
   double score{};  ///< [nat] evidence beyond nuisances and the other causes
   std::size_t hypothesis{};
@@ -72,14 +73,14 @@ struct Estimate {
 
 struct SearchResult {
   Verdict verdict{Verdict::kNone};
-  Doubt doubt{Doubt::kNothing};            ///< why the causes are suspected, not named
-  double probability{};                    ///< of what is suspected
-  std::vector<Hypothesis> causes;          ///< in the order of selection
-  std::vector<std::string> also_possible;  ///< effects that the data cannot separate from the first
-  std::vector<Estimate> parameters;        ///< of the causes
-  std::vector<Estimate> calibration;       ///< of the nuisances
-  std::vector<Candidate> candidates;       ///< best place of every effect, best first
-  ObserverSpeed speed{kSlow};  ///< under which the model followed the records in the end
+  Doubt doubt{Doubt::kNothing};           ///< why the causes are suspected, not named
+  double probability{};                   ///< of what is suspected
+  std::vector<Hypothesis> causes;         ///< in the order of selection
+  std::vector<effect::Id> also_possible;  ///< effects that the data cannot separate from the first
+  std::vector<Estimate> parameters;       ///< of the causes
+  std::vector<Estimate> calibration;      ///< of the nuisances
+  std::vector<Candidate> candidates;      ///< best place of every effect, best first
+  ObserverSpeed speed{kSlow};             ///< under which the model followed the records in the end
   Residual residual;
   std::vector<double> theta_calibrated;  ///< nuisances alone
   std::vector<double> theta_extended;    ///< with the causes

@@ -14,8 +14,8 @@ struct Group {
   std::vector<std::size_t> terms;
 };
 
-Group& GroupOf(std::vector<Group>& groups, const std::string& effect) {
-  const auto same = std::find_if(groups.begin(), groups.end(), [&effect](const Group& g) {
+Group& GroupOf(std::vector<Group>& groups, std::optional<effect::Id> effect) {
+  const auto same = std::find_if(groups.begin(), groups.end(), [effect](const Group& g) {
     return g.share.place.empty() && g.share.effect == effect;
   });
   if (same != groups.end()) return *same;
@@ -33,8 +33,7 @@ std::vector<Group> GroupsOf(const std::vector<Term>& terms, const SearchResult& 
     if (answer.theta_extended[i] == 0.0) continue;
     std::size_t cause = 0;
     while (cause < causes && !Moves(answer.causes[cause], i)) ++cause;
-    Group& group =
-        cause < causes ? groups[cause] : GroupOf(groups, std::string(terms[i].effect_name()));
+    Group& group = cause < causes ? groups[cause] : GroupOf(groups, terms[i].effect);
     group.terms.push_back(i);
   }
   std::erase_if(groups, [](const Group& g) { return g.terms.empty(); });

@@ -16,6 +16,7 @@
 // Thread     ProjectedChange: any, pure. ErrorShares blocks the caller, two threads inside.
 // Failure    none; a model that diverges without a group leaves that group out.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,8 +28,8 @@ namespace levitas::diagnosis {
 inline constexpr std::size_t kShareRows = 40'000;
 
 struct ErrorShare {
-  std::string effect;  ///< empty: shapes of the modes
-  std::string place;   ///< of a cause; empty for calibration
+  std::optional<effect::Id> effect;  ///< none: shapes of the modes
+  std::string place;                 ///< of a cause; empty for calibration
   double share{};
 };
 

@@ -59,7 +59,7 @@ std::vector<Candidate> FindEvents(const RigView& rig, const std::vector<Record>&
   const LostFrames frames = CountFrames(rig, records);
   const double unforeseen = static_cast<double>(frames.lost) - LostByFile(rig, frames);
   if (unforeseen > 0.0) {
-    found.push_back({.effect = "dropped_samples",
+    found.push_back({.effect = effect::Id::kDroppedSamples,
                      .place = fmt::format("{} frames", frames.lost),
                      .score = kPerFrame * (unforeseen - 1.0)});
   }
@@ -75,7 +75,7 @@ std::vector<Candidate> FindEvents(const RigView& rig, const std::vector<Record>&
     where += (where.empty() ? "" : ", ") + rig.numbers.channels[a];
   }
   if (evidence > 0.0) {
-    found.push_back({.effect = "sensor_noise", .place = where, .score = evidence});
+    found.push_back({.effect = effect::Id::kSensorNoise, .place = where, .score = evidence});
   }
   return found;
 }

@@ -1,9 +1,12 @@
 #include "diagnosis/inference/exchange.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <utility>
 
 #include "diagnosis/inference/ranking.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -49,8 +52,9 @@ bool ExchangeOne(EvidenceLandscape& landscape, const SelectionRules& rules, std:
   EvidenceLandscape::AllShapes shapes = landscape.Shapes();
   std::vector<Hypothesis> winner = found.causes;
   for (const Candidate& other : Near(landscape, rules.judging, found.causes, at)) {
-    landscape.ReportProgress(0.74,
-                             "exchanging " + found.causes[at].effect + " for " + other.effect);
+    landscape.ReportProgress(
+        0.74, fmt::format("exchanging {} for {}", effect::At(found.causes[at].effect).name,
+                          effect::At(other.effect).name));
     std::vector<Hypothesis> causes = found.causes;
     causes[at] = landscape.hypotheses()[other.hypothesis];
     Refined fit = RefineShapes(landscape, causes, landscape.Refit(causes), best.evidence);

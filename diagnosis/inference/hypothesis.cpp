@@ -8,9 +8,12 @@
 #include <map>
 #include <utility>
 
+#include "plant_sim/effect/catalogue.hpp"
+
 namespace levitas::diagnosis {
 namespace {
 
+using effect::Id;
 using Indices = std::vector<std::size_t>;
 
 class Maker {
@@ -18,27 +21,30 @@ class Maker {
   Maker(const RigView& rig, const std::vector<Term>& terms) : rig_(rig), terms_(terms) {}
 
   std::vector<Hypothesis> Make() {
-    std::map<std::pair<std::string, std::string>, Indices> forms;
+    std::map<Id, std::map<std::string, Indices>, effect::ByName> forms;
     for (std::size_t i = 0; i < terms_.size(); ++i) {
-      if (!terms_[i].effect) continue;
-      forms[{std::string(terms_[i].effect_name()), terms_[i].form}].push_back(i);
+      if (terms_[i].effect) forms[*terms_[i].effect][terms_[i].form].push_back(i);
     }
-    for (const auto& [form, indices] : forms) {
-      const std::size_t first = out_.size();
-      AddEffect(form.first, indices);
-      // Places name a hypothesis among those of its effect.
-      for (std::size_t h = first; h < out_.size() && !form.second.empty(); ++h) {
-        out_[h].place += ", " + form.second;
-      }
+    for (const auto& [effect, of_effect] : forms) {
+      for (const auto& [form, indices] : of_effect) AddForm(effect, form, indices);
     }
-    std::map<std::string, double> places;
+    std::map<Id, double> places;
     for (const Hypothesis& h : out_) places[h.effect] += 1.0;
     for (Hypothesis& h : out_) h.log_prior = -std::log(places[h.effect]);
     return std::move(out_);
   }
 
  private:
-  void AddEffect(const std::string& effect, const Indices& indices) {
+  void AddForm(Id effect, const std::string& form, const Indices& indices) {
+    const std::size_t first = out_.size();
+    AddEffect(effect, indices);
+    // Places name a hypothesis among those of its effect.
+    for (std::size_t h = first; h < out_.size() && !form.empty(); ++h) {
+      out_[h].place += ", " + form;
+    }
+  }
+
+  void AddEffect(Id effect, const Indices& indices) {
     std::map<std::string, Indices> places;
     for (const std::size_t i : indices) places[terms_[i].location.name].push_back(i);
     for (const auto& [place, members] : places) Free(effect, place, members);
@@ -54,10 +60,10 @@ class Maker {
       return;
     }
     // Grids of a shape parameter are alternatives; these sum up.
-    const bool adds_up = effect == "misalignment" && !rig_.geared();
-    if (effect == "unbalance" || adds_up) Free(effect, "all places", indices);
-    if (effect == "sensor_runout") AddRunout(indices);
-    if (effect == "mains_pickup") AddMains(indices);
+    const bool adds_up = effect == Id::kMisalignment && !rig_.geared();
+    if (effect == Id::kUnbalance || adds_up) Free(effect, "all places", indices);
+    if (effect == Id::kSensorRunout) AddRunout(indices);
+    if (effect == Id::kMainsPickup) AddMains(indices);
   }
 
   void AddRunout(const Indices& indices) {
@@ -66,11 +72,11 @@ class Maker {
           Where(indices, [order](const Location& at) { return at.order == order; });
       const std::string name = AtOrder(order).name;
       for (std::size_t b = 0; b < rig_.numbers.bearings.size(); ++b) {
-        Free("sensor_runout", name + ", " + rig_.numbers.bearings[b], OfBearing(of_order, b));
+        Free(Id::kSensorRunout, name + ", " + rig_.numbers.bearings[b], OfBearing(of_order, b));
       }
-      Free("sensor_runout", name + ", all axes", of_order);
+      Free(Id::kSensorRunout, name + ", all axes", of_order);
     }
-    Free("sensor_runout", "all orders, all axes", indices);
+    Free(Id::kSensorRunout, "all orders, all axes", indices);
   }
 
   void AddMains(const Indices& indices) {
@@ -78,7 +84,7 @@ class Maker {
       const Indices of_line =
           Where(indices, [line_hz](const Location& at) { return at.frequency_hz == line_hz; });
       if (of_line.empty()) continue;
-      Free("mains_pickup", fmt::format("{:.0f} Hz, all axes", line_hz), of_line);
+      Free(Id::kMainsPickup, fmt::format("{:.0f} Hz, all axes", line_hz), of_line);
     }
   }
 
@@ -97,7 +103,7 @@ class Maker {
                  [bearing](const Location& at) { return at.axis && *at.axis / 2 == bearing; });
   }
 
-  Hypothesis Empty(const std::string& effect, const std::string& place, const Indices& members,
+  Hypothesis Empty(Id effect, const std::string& place, const Indices& members,
                    std::size_t columns) const {
     Hypothesis h;
     h.effect = effect;
@@ -110,7 +116,7 @@ class Maker {
   }
 
   /// Every term by its own amount.
-  void Free(const std::string& effect, const std::string& place, const Indices& members) {
+  void Free(Id effect, const std::string& place, const Indices& members) {
     Hypothesis h = Empty(effect, place, members, members.size());
     for (std::size_t k = 0; k < members.size(); ++k) {
       h.directions(static_cast<Eigen::Index>(members[k]), static_cast<Eigen::Index>(k)) = 1.0;
@@ -120,7 +126,7 @@ class Maker {
   }
 
   /// Terms with the same parameter by the same amount.
-  void Common(const std::string& effect, const std::string& place, const Indices& members) {
+  void Common(Id effect, const std::string& place, const Indices& members) {
     std::vector<std::string> parameters;
     for (const std::size_t i : members) {
       if (std::find(parameters.begin(), parameters.end(), terms_[i].parameter) ==

@@ -4,6 +4,7 @@
 // Made from  the list of terms: every place of an effect by itself, the axes of a bearing together,
 //            all axes by the same amount, all of them freely. Terms of an effect at one place
 //            (cosine and sine, both powers) always move together.
+// No effect  a term without one (mode shapes) is calibrated, and makes no hypothesis.
 // Prior      each effect counts the same, whatever the number of its places: the evidence of a
 //            place is reduced by the logarithm of their number.
 // Thread     any; pure.
@@ -14,11 +15,12 @@
 
 #include "diagnosis/model/rig_view.hpp"
 #include "diagnosis/model/term.hpp"
+#include "plant_sim/effect/effect_config.hpp"
 
 namespace levitas::diagnosis {
 
 struct Hypothesis {
-  std::string effect;
+  effect::Id effect{};
   std::string place;
   /// Columns: directions in the space of all terms, in units of Term::scale(), prior variance 1.
   Eigen::MatrixXd directions;

@@ -1,10 +1,13 @@
 #include "diagnosis/inference/loud_fault.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <utility>
 
 #include "diagnosis/inference/calibrate.hpp"
 #include "diagnosis/inference/coloured.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -23,7 +26,8 @@ CauseSet FromFile(RecordLandscape& landscape, const SelectionRules& rules) {
   CauseSet best;
   for (std::size_t i = 0; i < std::min(screened.size(), kMostTried); ++i) {
     if (!(screened[i].score > rules.judging.decisive_nat)) break;
-    landscape.ReportProgress(0.4, "asking for " + screened[i].effect + " from the file's numbers");
+    landscape.ReportProgress(0.4, fmt::format("asking for {} from the file's numbers",
+                                              effect::At(screened[i].effect).name));
     const std::vector<Hypothesis> cause{landscape.hypotheses()[screened[i].hypothesis]};
     best.Take(cause, landscape.Refit(cause));
   }

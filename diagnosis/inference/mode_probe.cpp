@@ -61,7 +61,7 @@ std::vector<ModeProbe> ProbeModes(const RigView& rig, const std::vector<Term>& t
   const std::vector<double> ratio = Ratio(residual);
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {
     const Hypothesis& hypothesis = hypotheses[h];
-    if (hypothesis.effect != "modal_frequency" || hypothesis.terms.size() != 1) continue;
+    if (hypothesis.effect != effect::Id::kModalFrequency || hypothesis.terms.size() != 1) continue;
     const std::size_t term = hypothesis.terms.front();
     for (std::size_t mode = 2; mode < rig.modes; ++mode) {
       if (terms[term].location.mode != mode - 1) continue;

@@ -1,5 +1,7 @@
 #include "diagnosis/inference/moved_calibration.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +9,7 @@
 #include <utility>
 
 #include "diagnosis/inference/ranking.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -21,7 +24,7 @@ std::optional<std::size_t> BestOf(const RecordLandscape& landscape,
   std::optional<std::size_t> best;
   double most = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].effect != landscape.terms()[term].effect_name() || !Moves(all[i], term)) continue;
+    if (all[i].effect != landscape.terms()[term].effect || !Moves(all[i], term)) continue;
     const double gain = base.Gain(all[i]);
     if (gain <= most) continue;
     most = gain;
@@ -61,7 +64,8 @@ bool NameOne(const RecordLandscape& landscape, const SelectionRules& rules, Caus
       continue;
     std::vector<Hypothesis> causes = found.causes;
     causes.push_back(landscape.hypotheses()[*at]);
-    landscape.ReportProgress(0.88, "refitting " + causes.back().effect);
+    landscape.ReportProgress(0.88,
+                             fmt::format("refitting {}", effect::At(causes.back().effect).name));
     best.Take(causes, landscape.Refit(causes, before.evidence));
   }
   if (!best.fit.ok || best.fit.evidence <= before.evidence) return false;

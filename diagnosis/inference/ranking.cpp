@@ -10,7 +10,7 @@
 namespace levitas::diagnosis {
 
 std::vector<Candidate> Screen(const Evidence& base, const std::vector<Hypothesis>& hypotheses) {
-  std::map<std::string, Candidate> best;
+  std::map<effect::Id, Candidate, effect::ByName> best;
   for (std::size_t i = 0; i < hypotheses.size(); ++i) {
     const Hypothesis& h = hypotheses[i];
     const double gain = base.Gain(h);
@@ -30,10 +30,10 @@ void SortByScore(std::vector<Candidate>& candidates) {
                    [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
 }
 
-std::vector<std::string> Ties(const std::vector<Candidate>& candidates,
-                              const std::vector<Hypothesis>& causes, double tie_nat,
-                              double form_share) {
-  std::vector<std::string> ties;
+std::vector<effect::Id> Ties(const std::vector<Candidate>& candidates,
+                             const std::vector<Hypothesis>& causes, double tie_nat,
+                             double form_share) {
+  std::vector<effect::Id> ties;
   if (causes.empty()) return ties;
   const auto own = std::find_if(candidates.begin(), candidates.end(), [&causes](const auto& c) {
     return c.effect == causes.front().effect;
@@ -87,7 +87,7 @@ double HeldGain(const std::vector<Trajectory>& first, const std::vector<Trajecto
 std::vector<Hypothesis> OfExactForm(const std::vector<Hypothesis>& causes) {
   std::vector<Hypothesis> exact;
   std::ranges::copy_if(causes, std::back_inserter(exact), [](const Hypothesis& cause) {
-    return cause.effect == effect::At(effect::Id::kMainsPickup).name;
+    return cause.effect == effect::Id::kMainsPickup;
   });
   return exact;
 }

@@ -21,9 +21,9 @@ void SortByScore(std::vector<Candidate>& candidates);
 /// nonlinear model that come within `form_share` of its evidence, as no law is more exact. Not
 /// those that validation data refute. None for a cause that gains less than `tie_nat`: it is named
 /// for where calibration went (moved_calibration.hpp), which no other effect takes back.
-[[nodiscard]] std::vector<std::string> Ties(const std::vector<Candidate>& candidates,
-                                            const std::vector<Hypothesis>& causes, double tie_nat,
-                                            double form_share);
+[[nodiscard]] std::vector<effect::Id> Ties(const std::vector<Candidate>& candidates,
+                                           const std::vector<Hypothesis>& causes, double tie_nat,
+                                           double form_share);
 
 /// Share of the excess over the noise, all lines and channels, that the causes take away.
 [[nodiscard]] double Explained(const Residual& before, const Residual& after);

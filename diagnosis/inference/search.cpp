@@ -27,14 +27,14 @@ double LeastPossible(const Term& term) {
   return term.positive ? 0.0 : -std::numeric_limits<double>::infinity();
 }
 
-Search::Search(const RigView& rig, const std::vector<Term>& terms, const std::string& only,
+Search::Search(const RigView& rig, const std::vector<Term>& terms, std::optional<effect::Id> only,
                double model_error_share)
     : rig_(rig),
       terms_(terms),
       hypotheses_(MakeHypotheses(rig, terms)),
       model_error_share_(model_error_share) {
-  if (only.empty()) return;
-  std::erase_if(hypotheses_, [&only](const Hypothesis& h) { return h.effect != only; });
+  if (!only) return;
+  std::erase_if(hypotheses_, [only](const Hypothesis& h) { return h.effect != only; });
 }
 
 Gains Search::DesignGains(const std::vector<Record>& records, const ObserverSpeed& speed) const {

@@ -32,8 +32,9 @@ struct View {
 
 class Search {
  public:
-  /// `only`: the one effect that is looked for; empty: all. `model_error_share`: of judging.hpp.
-  Search(const RigView& rig, const std::vector<Term>& terms, const std::string& only = "",
+  /// `only`: the one effect that is looked for; none: all. `model_error_share`: of judging.hpp.
+  Search(const RigView& rig, const std::vector<Term>& terms,
+         std::optional<effect::Id> only = std::nullopt,
          double model_error_share = Judging{}.model_error_share);
 
   [[nodiscard]] Whitener WhitenerOf(const std::vector<Trajectory>& runs, std::size_t order) const {

@@ -1,11 +1,14 @@
 #include "diagnosis/inference/selection_steps.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
 
 #include "diagnosis/inference/ranking.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -46,7 +49,7 @@ CauseSet BestOfScreen(const EvidenceLandscape& landscape, const SelectionRules& 
   for (std::size_t i = 0; i < std::min(screened.size(), rules.effort.shortlist); ++i) {
     if (i > 0 && screened[i].score < std::max(from, bar.enough)) break;
     landscape.ReportProgress(share + 0.02 * static_cast<double>(i),
-                             "refitting " + screened[i].effect);
+                             fmt::format("refitting {}", effect::At(screened[i].effect).name));
     std::vector<Hypothesis> causes = found.causes;
     causes.push_back(landscape.hypotheses()[screened[i].hypothesis]);
     Refined fit = landscape.Refit(causes, best.fit.ok ? best.fit.evidence : bar.null + bar.enough);
@@ -117,7 +120,7 @@ void TryEffectWith(const EvidenceLandscape& landscape, const SelectionRules& rul
     std::set<std::size_t> set = rest;
     set.insert(screened[n].hypothesis);
     if (!merger.tried.insert(set).second) continue;
-    landscape.ReportProgress(0.7, "refitting " + screened[n].effect);
+    landscape.ReportProgress(0.7, fmt::format("refitting {}", effect::At(screened[n].effect).name));
     std::vector<Hypothesis> causes{landscape.hypotheses()[screened[n].hypothesis]};
     causes.insert(causes.end(), others.begin(), others.end());
     merger.best.Take(causes, landscape.Refit(causes, worth));
@@ -151,7 +154,8 @@ bool MergeOnce(EvidenceLandscape& landscape, const SelectionRules& rules, CauseS
 void RefineLastShape(EvidenceLandscape& landscape, Refined& fit, CauseSelection& found) {
   Hypothesis& last = found.causes.back();
   if (!landscape.HasShape(last)) return;
-  landscape.ReportProgress(0.5, "finding the form of " + last.effect);
+  landscape.ReportProgress(0.5,
+                           fmt::format("finding the form of {}", effect::At(last.effect).name));
   fit = landscape.RefineShapeOf(found.causes, found.causes.size() - 1, std::move(fit));
   found.theta = fit.theta;
   landscape.TakePlace(last);

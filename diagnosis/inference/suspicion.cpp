@@ -1,11 +1,14 @@
 #include "diagnosis/inference/suspicion.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "diagnosis/inference/ranking.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -20,7 +23,7 @@ constexpr double kSpokenFor = 0.5;
 Refined Confirm(const RecordLandscape& landscape, const std::vector<double>& calibrated,
                 Candidate& candidate) {
   const std::vector<Hypothesis> causes{landscape.hypotheses()[candidate.hypothesis]};
-  landscape.ReportProgress(0.88, "refitting " + candidate.effect);
+  landscape.ReportProgress(0.88, fmt::format("refitting {}", effect::At(candidate.effect).name));
   const Refined before = landscape.Fit({}, calibrated, 1);
   Refined fit = landscape.Refit(causes);
   if (!before.ok || !fit.ok) return {};
@@ -60,7 +63,7 @@ std::optional<std::size_t> AloneOf(const RecordLandscape& landscape, std::size_t
   const auto& all = landscape.hypotheses();
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].effect != landscape.terms()[term].effect_name() || !Moves(all[i], term)) continue;
+    if (all[i].effect != landscape.terms()[term].effect || !Moves(all[i], term)) continue;
     if (!best || all[i].terms.size() < all[*best].terms.size()) best = i;
   }
   return best;

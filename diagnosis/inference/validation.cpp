@@ -99,14 +99,14 @@ Judge::Forecast With(const RecordLandscape& landscape, const Judge& judge,
 }
 
 /// The candidate of the chosen contender leads, whatever the fitted records say.
-void Lead(CauseSelection& found, const std::string& effect) {
+void Lead(CauseSelection& found, effect::Id effect) {
   auto& all = found.candidates;
   const auto own =
       std::find_if(all.begin(), all.end(), [&](const auto& c) { return c.effect == effect; });
   if (own != all.end()) std::rotate(all.begin(), own, own + 1);
 }
 
-void Note(CauseSelection& found, const std::string& effect, const FitGain& gain) {
+void Note(CauseSelection& found, effect::Id effect, const FitGain& gain) {
   for (Candidate& c : found.candidates) {
     if (c.effect == effect) c.validation_nat = 0.5 * gain.value;
   }

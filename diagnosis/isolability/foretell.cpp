@@ -24,7 +24,7 @@ std::optional<Prediction> Foretell(const HealthyModel& model, const HealthyModel
                                    const std::vector<effect::EffectConfig>& fault,
                                    const Judging& judging) {
   if (fault.empty()) return std::nullopt;
-  const std::string effect(effect::At(fault.front().id).name);
+  const effect::Id effect = fault.front().id;
   if (const auto evidence = model.EventEvidence(fault)) {
     const auto more = further != nullptr ? further->EventEvidence(fault) : std::nullopt;
     return PredictEvent(effect, *evidence + more.value_or(0.0), judging);
@@ -43,8 +43,10 @@ std::vector<Foretold> ForetellAll(const HealthyModel& model, const HealthyModel*
   std::vector<Foretold> all;
   double done = 0.0;
   for (const StatedFault& fault : faults) {
-    const std::string effect(effect::At(fault.entry.id).name);
-    if (progress) progress(done / static_cast<double>(faults.size()), effect);
+    if (progress) {
+      progress(done / static_cast<double>(faults.size()),
+               std::string(effect::At(fault.entry.id).name));
+    }
     done += 1.0;
     auto prediction = Foretell(model, further, {fault.entry}, judging);
     if (prediction) all.push_back({fault, *std::move(prediction)});
@@ -52,23 +54,25 @@ std::vector<Foretold> ForetellAll(const HealthyModel& model, const HealthyModel*
   return all;
 }
 
-std::vector<std::vector<std::string>> TiedGroups(const std::vector<Foretold>& all) {
-  std::map<std::string, std::size_t> group;  // of each effect; merged groups keep the lower number
-  const auto join = [&group](const std::string& one, const std::string& other) {
+std::vector<std::vector<effect::Id>> TiedGroups(const std::vector<Foretold>& all) {
+  using effect::Id;
+  std::map<Id, std::size_t, effect::ByName>
+      group;  // of each effect; merged groups keep the lower number
+  const auto join = [&group](Id one, Id other) {
     const std::size_t a = group.try_emplace(one, group.size()).first->second;
     const std::size_t b = group.try_emplace(other, group.size()).first->second;
-    for (auto& [name, number] : group) {
+    for (auto& [id, number] : group) {
       if (number == std::max(a, b)) number = std::min(a, b);
     }
   };
   for (const Foretold& one : all) {
-    for (const std::string& tie : one.prediction.ties) join(one.prediction.effect, tie);
+    for (const Id tie : one.prediction.ties) join(one.prediction.effect, tie);
   }
-  std::map<std::size_t, std::vector<std::string>> members;
-  for (const auto& [name, number] : group) members[number].push_back(name);
-  std::vector<std::vector<std::string>> groups;
+  std::map<std::size_t, std::vector<Id>> members;
+  for (const auto& [id, number] : group) members[number].push_back(id);
+  std::vector<std::vector<Id>> groups;
   groups.reserve(members.size());
-  for (auto& [number, names] : members) groups.push_back(std::move(names));
+  for (auto& [number, ids] : members) groups.push_back(std::move(ids));
   return groups;
 }
 

@@ -33,7 +33,8 @@ using Progress = std::function<void(double share, const std::string& what)>;
                                                  const std::vector<effect::EffectConfig>& fault,
                                                  const Judging& judging);
 
-/// Effects that are tied with each other, directly or through a third; alone ones are left out.
-[[nodiscard]] std::vector<std::vector<std::string>> TiedGroups(const std::vector<Foretold>& all);
+/// Effects that are tied with each other, directly or through a third, in the order of their names;
+/// alone ones are left out.
+[[nodiscard]] std::vector<std::vector<effect::Id>> TiedGroups(const std::vector<Foretold>& all);
 
 }  // namespace levitas::diagnosis

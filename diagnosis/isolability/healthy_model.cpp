@@ -68,7 +68,7 @@ HealthyModel::HealthyModel(const configuration::RigFile& rig, std::vector<Record
   }
   own_terms_ = AllTerms(rig_, tolerances_, orbit_m_).size();
   terms_ = TermsOf(rig_);
-  search_ = std::make_unique<const Search>(rig_, terms_, "", judging.model_error_share);
+  search_ = std::make_unique<const Search>(rig_, terms_, std::nullopt, judging.model_error_share);
   gains_ = search_->DesignGains(records_, kSlow);
   std::vector<double> theta = search_->HealthyParameters();
   if (calibrate) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "diagnosis/inference/moved_calibration.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -21,9 +22,9 @@ struct Best {
   double paid{};  ///< at the place of the largest gain
 };
 
-std::map<std::string, Best> BestOfEffects(const Evidence& base,
-                                          const std::vector<Hypothesis>& hypotheses) {
-  std::map<std::string, Best> best;
+std::map<effect::Id, Best, effect::ByName> BestOfEffects(
+    const Evidence& base, const std::vector<Hypothesis>& hypotheses) {
+  std::map<effect::Id, Best, effect::ByName> best;
   for (const Hypothesis& h : hypotheses) {
     const Evidence::Weight weight = base.Weigh(h);
     auto [at, added] = best.try_emplace(h.effect);
@@ -45,7 +46,7 @@ double ChanceOf(double mean_nat, double threshold_nat) {
 }
 
 /// Whether calibration of the effect's own numbers would go beyond moved_tolerances.
-bool MovesItsNumber(const std::string& effect, const Fit& fit, const std::vector<Term>& terms,
+bool MovesItsNumber(effect::Id effect, const Fit& fit, const std::vector<Term>& terms,
                     double tolerances) {
   std::vector<double> theta;
   theta.reserve(terms.size());
@@ -55,7 +56,7 @@ bool MovesItsNumber(const std::string& effect, const Fit& fit, const std::vector
   }
   const std::vector<std::size_t> moved = MovedBeyond(terms, fit, theta, {}, tolerances);
   return std::any_of(moved.begin(), moved.end(),
-                     [&](std::size_t i) { return terms[i].effect_name() == effect; });
+                     [&](std::size_t i) { return terms[i].effect == effect; });
 }
 
 /// From evidence and alternatives, which are in order.
@@ -93,7 +94,7 @@ const char* Word(Isolation isolation) noexcept {
   return "not_visible";
 }
 
-Prediction Predict(const std::string& effect, const LinearProblem& signature,
+Prediction Predict(effect::Id effect, const LinearProblem& signature,
                    const std::vector<Term>& terms, const std::vector<Hypothesis>& hypotheses,
                    const Judging& judging) {
   Prediction p;
@@ -102,14 +103,14 @@ Prediction Predict(const std::string& effect, const LinearProblem& signature,
   const Fit calibrated = base.Solve();
   p.detectable_nat = std::max(0.0, 0.5 * (calibrated.squared_sum + calibrated.penalty));
   p.evidence_nat = kNever;
-  for (const auto& [name, best] : BestOfEffects(base, hypotheses)) {
-    if (name == effect) {
+  for (const auto& [other, best] : BestOfEffects(base, hypotheses)) {
+    if (other == effect) {
       // Its own law on the nonlinear model leaves nothing but the prior of its size.
       constexpr double kPrior = 0.5;
       p.evidence_nat = std::max(best.gain, p.detectable_nat - best.paid - kPrior);
       continue;
     }
-    p.alternatives.push_back({name, best.place, best.gain,
+    p.alternatives.push_back({other, best.place, best.gain,
                               std::max(0.0, p.detectable_nat - std::max(0.0, best.explained))});
   }
   std::stable_sort(
@@ -124,7 +125,7 @@ Prediction Predict(const std::string& effect, const LinearProblem& signature,
   return p;
 }
 
-Prediction PredictEvent(const std::string& effect, double evidence_nat, const Judging& judging) {
+Prediction PredictEvent(effect::Id effect, double evidence_nat, const Judging& judging) {
   Prediction p;
   p.effect = effect;
   p.detectable_nat = p.evidence_nat = evidence_nat;

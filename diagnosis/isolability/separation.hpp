@@ -38,14 +38,14 @@ enum class Isolation : std::uint8_t {
 
 /// Another effect against the signature of the one in question.
 struct Alternative {
-  std::string effect;
+  effect::Id effect{};
   std::string place;      ///< that suits best
   double evidence_nat{};  ///< -infinity: it would have to be negative
   double left_nat{};      ///< of the signature, with its parameters fitted
 };
 
 struct Prediction {
-  std::string effect;
+  effect::Id effect{};
   Isolation isolation{Isolation::kNotVisible};
   double detectable_nat{};
   double evidence_nat{};  ///< of its own effect
@@ -53,17 +53,17 @@ struct Prediction {
   double visible_from{};
   double probability{};                   ///< that noise leaves it decisive
   bool by_moved_number{};                 ///< visible by where calibration went alone
-  std::vector<std::string> ties;          ///< best first; of kTakenFor: what would be named
+  std::vector<effect::Id> ties;           ///< best first; of kTakenFor: what would be named
   std::vector<Alternative> alternatives;  ///< every effect of the hypotheses but itself, best first
 };
 
 /// `signature` has `ete` of the signature alone, about the healthy rig.
-[[nodiscard]] Prediction Predict(const std::string& effect, const LinearProblem& signature,
+[[nodiscard]] Prediction Predict(effect::Id effect, const LinearProblem& signature,
                                  const std::vector<Term>& terms,
                                  const std::vector<Hypothesis>& hypotheses, const Judging& judging);
 
 /// Of what shows in single samples (events.hpp): evidence alone, nothing is mistaken for it.
-[[nodiscard]] Prediction PredictEvent(const std::string& effect, double evidence_nat,
+[[nodiscard]] Prediction PredictEvent(effect::Id effect, double evidence_nat,
                                       const Judging& judging);
 
 }  // namespace levitas::diagnosis

@@ -23,7 +23,7 @@ std::vector<StatedFault> Open(const std::vector<Foretold>& all) {
 
 void Take(std::vector<Foretold> foretold, Tried& out) {
   for (Foretold& one : foretold) {
-    const std::string effect = one.prediction.effect;
+    const effect::Id effect = one.prediction.effect;
     out.outcomes.push_back({effect, std::move(one.prediction)});
   }
 }
@@ -44,7 +44,7 @@ Tried WithHealthyRecords(const HealthyModel& model, const std::vector<StatedFaul
   for (const StatedFault& fault : open) {
     const auto signature = model.SignatureOf({fault.entry});
     if (!signature) continue;
-    const std::string effect(effect::At(fault.entry.id).name);
+    const effect::Id effect = fault.entry.id;
     tried.outcomes.push_back(
         {effect, Predict(effect, *signature, narrowed, model.hypotheses(), judging)});
   }
@@ -58,7 +58,7 @@ Tried WithSensor(const HealthyModel& model, const SensorsBeside& sensors, std::s
     auto signature = model.SignatureOf({fault.entry});
     if (!signature || fault.entry.id == effect::Id::kMainsPickup) continue;
     sensors.Add(which, {fault.entry}, *signature);
-    const std::string effect(effect::At(fault.entry.id).name);
+    const effect::Id effect = fault.entry.id;
     tried.outcomes.push_back(
         {effect, Predict(effect, *signature, model.terms(), model.hypotheses(), judging)});
   }

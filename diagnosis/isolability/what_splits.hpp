@@ -20,7 +20,7 @@ namespace levitas::diagnosis {
 
 /// What one way makes of a fault that is tied, taken for another or not visible.
 struct Outcome {
-  std::string effect;
+  effect::Id effect{};
   Prediction after;
 };
 

@@ -1,18 +1,13 @@
 #include "diagnosis/report/affected_part.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "diagnosis/diagnose/diagnose_files.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
 
-std::string PlaceOfEffect(const std::string& effect) {
-  const effect::Row* row = effect::Find(effect);
-  if (row == nullptr) throw std::logic_error(effect + " is not in the catalogue of effects");
-  return std::string(effect::Name(row->place));
-}
+std::string PlaceOfEffect(effect::Id id) { return std::string(effect::Name(effect::At(id).place)); }
 
 std::string PlaceOfResidual(const std::string& coherent_with) {
   if (coherent_with == "current") return "magnet";

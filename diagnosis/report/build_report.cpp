@@ -12,9 +12,14 @@
 #include "diagnosis/report/named_values.hpp"
 #include "diagnosis/report/report_text.hpp"
 #include "diagnosis/report/validation_check.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
 namespace {
+
+/// From here on effects go by name: the report is that of a levitator, too, whose effects the
+/// catalogue lacks.
+std::string NameOf(effect::Id id) { return std::string(effect::At(id).name); }
 
 ReportShare ShareOf(const Share& share) { return {share.value, share.low, share.high}; }
 
@@ -74,7 +79,7 @@ ReportCoverage CoverageFor(const DiagnosisResult& result) {
   return {.turns = coverage.turns,
           .excited = coverage.excited,
           .sentence = UnobservableSentence(result),
-          .effects = UnobservableEffects(result),
+          .effects = effect::NamesOf(UnobservableEffects(result)),
           .missing_records = MissingRecords(result)};
 }
 
@@ -82,11 +87,13 @@ void AddFound(const SearchResult& found, DiagnosisReport& report) {
   report.verdict = found.verdict;
   report.doubt = found.doubt;
   report.probability = found.probability;
-  for (const Hypothesis& cause : found.causes) report.causes.push_back({cause.effect, cause.place});
-  report.also_possible = found.also_possible;
+  for (const Hypothesis& cause : found.causes) {
+    report.causes.push_back({NameOf(cause.effect), cause.place});
+  }
+  report.also_possible = effect::NamesOf(found.also_possible);
   report.evidence_nat = found.evidence;
   for (const Candidate& c : found.candidates) {
-    report.candidates.push_back({.effect = c.effect,
+    report.candidates.push_back({.effect = NameOf(c.effect),
                                  .place = c.place,
                                  .evidence_nat = c.score,
                                  .refitted = c.refitted,
@@ -99,7 +106,8 @@ void AddFits(const DiagnosisResult& result, DiagnosisReport& report) {
   report.fitted = FitOf(result.fitted, report.rig_channels);
   report.validation = FitOf(result.validation, report.rig_channels);
   for (const ErrorShare& share : result.error_shares) {
-    report.error_shares.push_back({share.effect, share.place, share.share});
+    report.error_shares.push_back(
+        {share.effect ? NameOf(*share.effect) : "", share.place, share.share});
   }
   if (result.forecast) report.forecast = ForecastOf(*result.forecast);
   report.separate_validation = result.separate_validation;

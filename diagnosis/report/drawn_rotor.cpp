@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "diagnosis/diagnose/diagnose_files.hpp"
-#include "diagnosis/report/affected_part.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -60,7 +60,8 @@ std::vector<Piece> PiecesOf(const plant::PlantConfig& plant) {
 
 /// Sensors stand elsewhere than magnets.
 bool OnSensor(const NamedParameter& p) {
-  return p.location.on_sensor || PlaceOfEffect(p.effect) == "sensor";
+  const effect::Row* row = effect::Find(p.effect);
+  return p.location.on_sensor || (row != nullptr && row->place == effect::Place::kSensor);
 }
 
 }  // namespace

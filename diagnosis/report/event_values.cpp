@@ -29,14 +29,14 @@ Burst BurstOf(const LostFrames& frames) {
 
 bool IsCause(const DiagnosisResult& s, effect::Id id) {
   return std::any_of(s.answer.causes.begin(), s.answer.causes.end(),
-                     [id](const Hypothesis& cause) { return cause.effect == effect::At(id).name; });
+                     [id](const Hypothesis& cause) { return cause.effect == id; });
 }
 
 /// Axes of the cause `sensor_noise`: its place lists their channels.
 std::vector<std::size_t> NoisyAxes(const DiagnosisResult& s) {
   std::vector<std::size_t> axes;
   for (const Hypothesis& cause : s.answer.causes) {
-    if (cause.effect != effect::At(effect::Id::kSensorNoise).name) continue;
+    if (cause.effect != effect::Id::kSensorNoise) continue;
     const std::string listed = cause.place + ", ";
     for (std::size_t a = 0; a < s.view->axes; ++a) {
       const std::string name = s.view->numbers.channels[a] + ", ";

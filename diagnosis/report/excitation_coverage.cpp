@@ -19,9 +19,9 @@ bool Has(const DiagnosisResult& s, effect::Id effect) {
 }
 
 /// The effects that were searched and of which `needs` holds.
-void Append(const DiagnosisResult& s, bool effect::Facts::*needs, std::vector<std::string>& to) {
+void Append(const DiagnosisResult& s, bool effect::Facts::*needs, std::vector<effect::Id>& to) {
   for (const effect::Row& row : effect::Catalogue()) {
-    if (row.facts.*needs && Has(s, row.id)) to.emplace_back(row.name);
+    if (row.facts.*needs && Has(s, row.id)) to.push_back(row.id);
   }
 }
 
@@ -35,9 +35,9 @@ Coverage CoverageOf(const DiagnosisResult& s) {
   return c;
 }
 
-std::vector<std::string> UnobservableEffects(const DiagnosisResult& s) {
+std::vector<effect::Id> UnobservableEffects(const DiagnosisResult& s) {
   const Coverage c = CoverageOf(s);
-  std::vector<std::string> effects;
+  std::vector<effect::Id> effects;
   if (!c.turns) Append(s, &effect::Facts::needs_rotation, effects);
   if (!c.excited) Append(s, &effect::Facts::needs_excitation, effects);
   return effects;
@@ -46,17 +46,18 @@ std::vector<std::string> UnobservableEffects(const DiagnosisResult& s) {
 std::string UnobservableSentence(const DiagnosisResult& s) {
   const Coverage c = CoverageOf(s);
   if (c.turns && c.excited) return {};
-  std::vector<std::string> turning;
-  std::vector<std::string> excited;
+  std::vector<effect::Id> turning;
+  std::vector<effect::Id> excited;
   Append(s, &effect::Facts::needs_rotation, turning);
   Append(s, &effect::Facts::needs_excitation, excited);
   std::string text = "These records cannot show every effect:";
   if (!c.turns) {
-    text += fmt::format(" the rotor does not turn, so {} would not show", fmt::join(turning, ", "));
+    text += fmt::format(" the rotor does not turn, so {} would not show",
+                        fmt::join(effect::NamesOf(turning), ", "));
   }
   if (!c.excited) {
     text += fmt::format("{} no test signal is recorded, so {} would hardly show",
-                        c.turns ? "" : ";", fmt::join(excited, ", "));
+                        c.turns ? "" : ";", fmt::join(effect::NamesOf(excited), ", "));
   }
   return text + ".";
 }

@@ -22,7 +22,7 @@ struct Coverage {
 
 [[nodiscard]] Coverage CoverageOf(const DiagnosisResult& answer);
 /// Effects that are not, or hardly, observable.
-[[nodiscard]] std::vector<std::string> UnobservableEffects(const DiagnosisResult& answer);
+[[nodiscard]] std::vector<effect::Id> UnobservableEffects(const DiagnosisResult& answer);
 /// One sentence naming those effects; empty when there are none.
 [[nodiscard]] std::string UnobservableSentence(const DiagnosisResult& answer);
 /// The record that would show them; empty when nothing is missing.

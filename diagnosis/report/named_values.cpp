@@ -126,9 +126,9 @@ class Bracket {
 /// size is that limit, and how well it is known cannot be said.
 void AddAtItsLimit(const PlacedEffect& at, const EntryValues& values,
                    std::vector<NamedParameter>& out) {
-  const effect::Words* words = effect::FindWords(at.effect_name());
+  const effect::Words& words = effect::WordsOf(at.effect.value());
   for (const EntryValue& value : values) {
-    if (words == nullptr || !value.key.starts_with(words->size)) continue;
+    if (!value.key.starts_with(words.size)) continue;
     const KeyUnit unit = UnitOfKey(value.key);
     NamedParameter p;
     p.effect = at.effect_name();

@@ -4,35 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 #include <vector>
 
 #include "common/rotational_speed.hpp"
+#include "diagnosis/report/separations.hpp"
 #include "diagnosis/report/validation_check.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
 namespace {
-
-/// Distinguishable only above the amplifier bandwidth.
-constexpr std::array<std::string_view, 5> kOfTheLoop{
-    "extra_delay", "eddy_current", "amplifier_bandwidth", "sensor_bandwidth", "amplifier_slew"};
-
-template <std::size_t kCount>
-bool AnyOf(const std::vector<std::string>& effects,
-           const std::array<std::string_view, kCount>& list) {
-  return std::any_of(effects.begin(), effects.end(), [&list](const std::string& effect) {
-    return std::find(list.begin(), list.end(), effect) != list.end();
-  });
-}
-
-bool AnyNeedsRotation(const std::vector<std::string>& effects) {
-  return std::any_of(effects.begin(), effects.end(), [](const std::string& name) {
-    const effect::Row* row = effect::Find(name);
-    return row != nullptr && row->facts.needs_rotation;
-  });
-}
 
 /// A maximum-length sequence of order 12 on every axis in turn.
 std::string TestSignals(const std::vector<std::string>& channels, int divisor, double period_s) {
@@ -60,8 +40,12 @@ std::string PlanScenario(const DiagnosisReport& s, const configuration::RigFile&
   std::vector<std::string> effects = s.also_possible;
   for (const ReportCause& cause : s.causes) effects.push_back(cause.effect);
   const bool sound = s.verdict == Verdict::kNone;
-  const bool rotating = effects.empty() || AnyNeedsRotation(effects) || s.validation_is_faster;
-  const bool fast = AnyOf(effects, kOfTheLoop) || (sound && !s.coverage.excited);
+  const std::vector<effect::Id> ids = effect::IdsOf(effects);
+  const bool turning = std::any_of(
+      ids.begin(), ids.end(), [](effect::Id id) { return effect::At(id).facts.needs_rotation; });
+  const bool rotating = effects.empty() || turning || s.validation_is_faster;
+  const bool fast =
+      std::any_of(ids.begin(), ids.end(), NeedsFastSignal) || (sound && !s.coverage.excited);
   const std::vector<std::string>& channels = rig.numbers.channels;
   const double period_s = 1e-9 * static_cast<double>(rig.plant.period_ns);
   const double most_rpm = RadPerSToRpm(rig.numbers.max_speed_rad_per_s);

@@ -4,53 +4,18 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <string_view>
 
 #include "diagnosis/inference/judging.hpp"
 #include "diagnosis/report/advice.hpp"
 #include "diagnosis/report/effect_entry.hpp"
+#include "diagnosis/report/separations.hpp"
 #include "diagnosis/report/validation_check.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
 namespace {
-
-/// Pairs of similar effects, and the experiment that separates them.
-struct Pair {
-  const char* first;
-  const char* second;
-  const char* experiment;
-};
-
-constexpr std::array kPairs{
-    Pair{"unbalance", "shaft_bow",
-         "a run-up over at least a factor of two in speed: unbalance "
-         "grows with the square of speed, a bow does not"},
-    Pair{"unbalance", "sensor_runout",
-         "a slow roll and a run-up: run-out stays as it is at low "
-         "speed, unbalance vanishes"},
-    Pair{"sensor_runout", "misalignment",
-         "a run-up through a bending mode: only a force excites it"},
-    Pair{"current_gain", "sensor_gain",
-         "a record of the healthy rig or a known weight "
-         "hung on the shaft"},
-    Pair{"current_gain", "displacement_stiffness",
-         "standing with a test signal at two bias currents"},
-    Pair{"current_gain", "force_constant",
-         "standing with a test signal at two bias currents: only a force "
-         "constant changes the negative stiffness"},
-    Pair{"command_offset", "static_load",
-         "two bias currents: the force of an offset current grows with the "
-         "bias, a load stays"},
-    Pair{"extra_delay", "amplifier_bandwidth", "standing with a test signal rich above 500 Hz"},
-    Pair{"extra_delay", "eddy_current", "standing with a test signal rich above 500 Hz"},
-    Pair{"eddy_current", "amplifier_bandwidth",
-         "standing with measured coil currents, or a test "
-         "signal rich above 500 Hz"},
-    Pair{"sensor_offset", "static_load",
-         "two bias currents: an offset's force grows with the bias "
-         "squared, a load stays"},
-    Pair{"mains_pickup", "sensor_runout", "another speed: mains stay at their frequency"}};
 
 /// ": tau_us 5.21 us (4.9 to 5.5)", the first number of a cause, with its place where it is not the
 /// same at all; empty where it has none.
@@ -279,14 +244,10 @@ std::string SeparatingExperiment(const DiagnosisReport& report) {
   }
   const bool weak = report.doubt == Doubt::kWeakEvidence;
   if (report.causes.empty() || (report.also_possible.empty() && !weak)) return kNoneNeeded;
-  const std::string& cause = report.causes.front().effect;
-  for (const auto& pair : kPairs) {
-    for (const auto& other : report.also_possible) {
-      if ((cause == pair.first && other == pair.second) ||
-          (cause == pair.second && other == pair.first)) {
-        return pair.experiment;
-      }
-    }
+  if (const effect::Row* cause = effect::Find(report.causes.front().effect)) {
+    const std::string_view record =
+        SeparatingRecord(cause->id, effect::IdsOf(report.also_possible));
+    if (!record.empty()) return std::string(record);
   }
   return "a longer record with a stronger test signal, standing and at two speeds";
 }

@@ -38,6 +38,21 @@ const Row* Find(std::string_view name) {
   return found == rows.end() ? nullptr : &*found;
 }
 
+std::vector<Id> IdsOf(std::span<const std::string> names) {
+  std::vector<Id> ids;
+  for (const std::string& name : names) {
+    if (const Row* row = Find(name)) ids.push_back(row->id);
+  }
+  return ids;
+}
+
+std::vector<std::string> NamesOf(std::span<const Id> ids) {
+  std::vector<std::string> names;
+  names.reserve(ids.size());
+  for (const Id id : ids) names.emplace_back(At(id).name);
+  return names;
+}
+
 std::string_view Name(Place place) noexcept {
   constexpr std::array<std::string_view, 8> kNames{"timing",  "amplifier", "magnet", "rotor",
                                                    "support", "external",  "gear",   "sensor"};

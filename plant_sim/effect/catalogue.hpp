@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "plant_sim/effect/effect_config.hpp"
 
@@ -89,6 +90,14 @@ struct Row {
 [[nodiscard]] const Row& At(Id id);
 /// Null when no effect has this name.
 [[nodiscard]] const Row* Find(std::string_view name);
+/// Of lists that come from files, options and reports, or go there. What the catalogue lacks is
+/// left out.
+[[nodiscard]] std::vector<Id> IdsOf(std::span<const std::string> names);
+[[nodiscard]] std::vector<std::string> NamesOf(std::span<const Id> ids);
+/// Order of tables by effect: that of the names, so that it stays when ids are added between.
+struct ByName {
+  [[nodiscard]] bool operator()(Id one, Id other) const { return At(one).name < At(other).name; }
+};
 [[nodiscard]] std::string_view Name(Place place) noexcept;
 [[nodiscard]] std::string_view Name(Scope scope) noexcept;
 

@@ -6,6 +6,7 @@
 #include "benchmark/accuracy/drawn_rig.hpp"
 #include "benchmark/accuracy/scores.hpp"
 #include "diagnosis/report/build_report.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::accuracy {
 namespace {
@@ -30,14 +31,16 @@ TrialScore Ask(std::uint64_t seed, std::vector<effect::Id> hidden) {
 TEST(HiddenEffect, OfAMagnetsGainIsNamed) {
   const TrialScore outcome = Ask(5104, {effect::Id::kCurrentGain});
   EXPECT_TRUE(outcome.Right()) << outcome.verdict << ", first "
-                               << (outcome.named.empty() ? "nothing" : outcome.named.front());
+                               << (outcome.named.empty() ? "nothing"
+                                                         : effect::At(outcome.named.front()).name);
   EXPECT_GT(outcome.score_nat, diagnosis::kDecisive);
 }
 
 TEST(HiddenEffect, ThatLosesFramesIsNamed) {
   const TrialScore outcome = Ask(41, {effect::Id::kDroppedSamples});
   EXPECT_TRUE(outcome.Right()) << outcome.verdict << ", first "
-                               << (outcome.named.empty() ? "nothing" : outcome.named.front());
+                               << (outcome.named.empty() ? "nothing"
+                                                         : effect::At(outcome.named.front()).name);
 }
 
 // A hum as strong as the orbit is most of what calibration leaves, and so of the whitening filter:
@@ -55,13 +58,14 @@ TEST(HiddenEffect, OfAStrongHumIsTheOnlyOneNamedAndRightlySized) {
   settings.quick = true;
   const auto answer = diagnosis::DiagnoseRecords(trial.rig, trial.records, {}, settings);
   const TrialScore outcome = Judge(plan, trial.ground_truth, diagnosis::BuildReport(answer));
-  EXPECT_EQ(outcome.named, std::vector<std::string>{"mains_pickup"});
+  EXPECT_EQ(outcome.named, std::vector<effect::Id>{effect::Id::kMainsPickup});
   EXPECT_LT(outcome.parameter_error, 0.10);
 }
 
 TEST(HiddenEffect, IsNotFoundWhereNothingIsHidden) {
   const TrialScore outcome = Ask(42, {});
-  EXPECT_EQ(outcome.verdict, "none") << (outcome.named.empty() ? "" : outcome.named.front());
+  EXPECT_EQ(outcome.verdict, "none")
+      << (outcome.named.empty() ? "" : effect::At(outcome.named.front()).name);
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ TEST(QuietProbes, LeaveAHealthyRigHealthy) {
 TEST(QuietProbes, ShowAGainThatCalibrationAbsorbs) {
   const dg::SearchResult answer = Ask(LowGain(), dg::Judging{}.moved_tolerances);
   ASSERT_EQ(answer.causes.size(), 1U);
-  EXPECT_EQ(answer.causes.front().effect, "current_gain");
+  EXPECT_EQ(answer.causes.front().effect, effect::Id::kCurrentGain);
   EXPECT_EQ(answer.causes.front().place, "rear_x");
   ASSERT_EQ(answer.parameters.size(), 1U);
   EXPECT_NEAR(answer.parameters.front().value, kLowGain - 1.0, 0.03);

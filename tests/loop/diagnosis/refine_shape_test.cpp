@@ -42,9 +42,10 @@ TEST(RefineShape, FindsTheShapeBetweenTwoMembers) {
   ASSERT_TRUE(calibrated.ok);
   const View view =
       search.Linearise(records, gains, calibrated.theta, kWhiteningOrder, search.Everything());
-  const auto member = std::find_if(
-      search.hypotheses().begin(), search.hypotheses().end(),
-      [](const Hypothesis& h) { return h.effect == "amplifier_slew" && h.place == "4000 A/s"; });
+  const auto member =
+      std::find_if(search.hypotheses().begin(), search.hypotheses().end(), [](const Hypothesis& h) {
+        return h.effect == effect::Id::kAmplifierSlew && h.place == "4000 A/s";
+      });
   ASSERT_NE(member, search.hypotheses().end());
   ASSERT_TRUE(HasFamily(*member, terms));
   const std::vector<Hypothesis> causes{*member};

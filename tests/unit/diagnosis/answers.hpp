@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnosis/diagnose/diagnose_files.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 #include "tests/unit/diagnosis/moments.hpp"
 
 namespace levitas::diagnosis {
@@ -23,8 +24,7 @@ inline DiagnosisResult NothingFound() {
 }
 
 /// The effect at that place, every term of it with `share` of its usual size.
-inline DiagnosisResult Found(const std::string& effect, const std::string& place,
-                             double share = 0.5) {
+inline DiagnosisResult Found(effect::Id effect, const std::string& place, double share = 0.5) {
   DiagnosisResult s = NothingFound();
   s.answer.verdict = Verdict::kEffect;
   for (const Hypothesis& h : MakeHypotheses(*s.view, s.terms)) {
@@ -38,7 +38,8 @@ inline DiagnosisResult Found(const std::string& effect, const std::string& place
     s.answer.candidates.push_back({.effect = effect, .place = place, .score = 20.0});
     return s;
   }
-  throw std::runtime_error("no hypothesis " + effect + " at " + place);
+  throw std::runtime_error("no hypothesis " + std::string(effect::At(effect).name) + " at " +
+                           place);
 }
 
 }  // namespace levitas::diagnosis

@@ -7,6 +7,7 @@
 // Seen       which sets were fitted, in order, and how often it was linearised anew.
 
 #include <Eigen/Dense>
+#include <array>
 #include <map>
 #include <set>
 #include <string>
@@ -16,19 +17,54 @@
 #include "diagnosis/inference/cause_selection.hpp"
 #include "diagnosis/inference/evidence_landscape.hpp"
 #include "diagnosis/inference/ranking.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
 
+/// Effects by the part that they play in a test, whose landscape says what they do. In the order of
+/// their names, so that what is equally good comes in the order of the words.
+namespace role {
+inline constexpr effect::Id kAll = effect::Id::kAmplifierBandwidth;
+inline constexpr effect::Id kAlternative = effect::Id::kAmplifierSlew;
+inline constexpr effect::Id kBetterInFact = effect::Id::kAxisRotation;
+inline constexpr effect::Id kBetterOnTheScreen = effect::Id::kBacklash;
+inline constexpr effect::Id kBoth = effect::Id::kBreathingCrack;
+inline constexpr effect::Id kEffect = effect::Id::kCoilAsymmetry;
+inline constexpr effect::Id kElsewhere = effect::Id::kCommandOffset;
+inline constexpr effect::Id kFamily = effect::Id::kCouplingStiffness;
+inline constexpr effect::Id kFarBehind = effect::Id::kCrossCoupledStiffness;
+inline constexpr effect::Id kFirst = effect::Id::kCurrentGain;
+inline constexpr effect::Id kGreater = effect::Id::kDisplacementStiffness;
+inline constexpr effect::Id kImitation = effect::Id::kDroppedSamples;
+inline constexpr effect::Id kLeader = effect::Id::kEddyCurrent;
+inline constexpr effect::Id kLesser = effect::Id::kExtraDelay;
+inline constexpr effect::Id kMode = effect::Id::kMeshFriction;
+inline constexpr effect::Id kOnly = effect::Id::kSampleJitter;
+inline constexpr effect::Id kOther = effect::Id::kSensorBandwidth;
+inline constexpr effect::Id kSecond = effect::Id::kSensorGain;
+inline constexpr effect::Id kStrong = effect::Id::kSensorNoise;
+inline constexpr effect::Id kThird = effect::Id::kSensorNonlinearity;
+inline constexpr effect::Id kTrueCause = effect::Id::kSensorOffset;
+inline constexpr effect::Id kTrueSecond = effect::Id::kSensorPosition;
+inline constexpr effect::Id kWeak = effect::Id::kSensorRunout;
+inline constexpr effect::Id kX = effect::Id::kShaftAnisotropy;
+inline constexpr effect::Id kY = effect::Id::kShaftBow;
+inline constexpr effect::Id kZ = effect::Id::kStaticLoad;
+inline constexpr std::array kOneMore{
+    effect::Id::kMeshStiffness, effect::Id::kMeshStiffnessVariation, effect::Id::kMisalignment,
+    effect::Id::kModalDamping,  effect::Id::kModalFrequency,         effect::Id::kRotorMass};
+}  // namespace role
+
 class ToyLandscape final : public EvidenceLandscape {
  public:
-  using Effects = std::set<std::string>;
+  using Effects = std::set<effect::Id>;
   static constexpr double kOccam = 3.0;  // [nat]
   static inline const Family::Shape kBest{2.0};
 
   explicit ToyLandscape(std::vector<double> readings) : readings_(std::move(readings)) {}
 
   /// Its direction has unit length afterwards.
-  Hypothesis Add(const std::string& effect, const std::vector<double>& along,
+  Hypothesis Add(effect::Id effect, const std::vector<double>& along,
                  const std::string& place = "here") {
     Hypothesis h;
     h.effect = effect;
@@ -48,9 +84,9 @@ class ToyLandscape final : public EvidenceLandscape {
     return found;
   }
 
-  std::map<Effects, double> fitted;     ///< [nat] evidence of the nonlinear fit
-  std::set<Effects> refused;            ///< sets that no fit follows
-  std::map<std::string, double> shape;  ///< [nat] gained by the best shape of the effect
+  std::map<Effects, double> fitted;    ///< [nat] evidence of the nonlinear fit
+  std::set<Effects> refused;           ///< sets that no fit follows
+  std::map<effect::Id, double> shape;  ///< [nat] gained by the best shape of the effect
   std::vector<ModeProbe> probes;
   std::map<double, double> from;      ///< [nat] where a fit begins with a theta of this value
   mutable std::vector<Effects> fits;  ///< in the order of time
@@ -69,7 +105,7 @@ class ToyLandscape final : public EvidenceLandscape {
     return GainOf(cause, given);
   }
   [[nodiscard]] std::vector<Candidate> Screen(const Causes& given) const override {
-    std::map<std::string, Candidate> best;
+    std::map<effect::Id, Candidate, effect::ByName> best;
     for (std::size_t i = 0; i < all_.size(); ++i) {
       const double gain = GainOf(all_[i], given);
       Candidate& at =

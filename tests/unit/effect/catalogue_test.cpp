@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -135,6 +136,25 @@ TEST(Catalogue, EndsFileAndProgramNamesOfOneQuantityInUnitsOfOneKind) {
 TEST(ClearEntry, TakesAbsoluteSizesAsTheyAreAndRelativeOnesTimesTheRigsOwn) {
   EXPECT_EQ(ClearEntry(Id::kEddyCurrent).values[0], 50e-6);
   EXPECT_EQ(ClearEntry(Id::kAmplifierBandwidth, 720.0).values[0], 0.7 * 720.0);
+}
+
+TEST(Catalogue, ListsCrossABorderInTheirOrderAndWithoutWhatItLacks) {
+  const std::vector<Id> ids{Id::kUnbalance, Id::kExtraDelay};
+  EXPECT_EQ(NamesOf(ids), (std::vector<std::string>{"unbalance", "extra_delay"}));
+  const std::vector<std::string> names{"unbalance", "coil_resistance", "extra_delay"};
+  EXPECT_EQ(IdsOf(names), ids);
+}
+
+TEST(Catalogue, TablesByNameAreInTheOrderOfTheNames) {
+  std::set<Id, ByName> ids;
+  std::set<std::string_view> names;
+  for (const Row& row : Catalogue()) {
+    ids.insert(row.id);
+    names.insert(row.name);
+  }
+  ASSERT_EQ(ids.size(), names.size());
+  EXPECT_TRUE(std::equal(ids.begin(), ids.end(), names.begin(),
+                         [](Id id, std::string_view name) { return At(id).name == name; }));
 }
 
 }  // namespace

@@ -12,33 +12,33 @@
 namespace levitas::diagnosis {
 namespace {
 
-const Candidate& CandidateOf(const CauseSelection& found, const std::string& effect) {
+const Candidate& CandidateOf(const CauseSelection& found, effect::Id effect) {
   return *std::find_if(found.candidates.begin(), found.candidates.end(),
-                       [&effect](const Candidate& c) { return c.effect == effect; });
+                       [effect](const Candidate& c) { return c.effect == effect; });
 }
 
 TEST(RankCandidates, PutsTheStrongestCauseFirst) {
   ToyLandscape toy({5.0, 10.0, 7.0});
-  const Hypothesis weak = toy.Add("weak", {1.0, 0.0, 0.0});
-  const Hypothesis strong = toy.Add("strong", {0.0, 1.0, 0.0});
-  toy.Add("other", {0.0, 0.0, 1.0});
+  const Hypothesis weak = toy.Add(role::kWeak, {1.0, 0.0, 0.0});
+  const Hypothesis strong = toy.Add(role::kStrong, {0.0, 1.0, 0.0});
+  toy.Add(role::kOther, {0.0, 0.0, 1.0});
   CauseSelection found = toy.Found({strong, weak});
   RankCandidates(toy, ThoroughRules(), found);
-  EXPECT_EQ(found.causes.front().effect, "strong") << "as it was";
+  EXPECT_EQ(found.causes.front().effect, role::kStrong) << "as it was";
   found = toy.Found({weak, strong});
   RankCandidates(toy, ThoroughRules(), found);
-  EXPECT_EQ(found.causes.front().effect, "strong");
+  EXPECT_EQ(found.causes.front().effect, role::kStrong);
   ASSERT_EQ(found.candidates.size(), 3U);
-  EXPECT_EQ(found.candidates.front().effect, "strong");
+  EXPECT_EQ(found.candidates.front().effect, role::kStrong);
   EXPECT_NEAR(found.candidates.front().score, 47.0, 1e-9) << "given the weak one";
-  EXPECT_EQ(found.candidates[1].effect, "other");
+  EXPECT_EQ(found.candidates[1].effect, role::kOther);
 }
 
 // Forward selection chose a place; the ranking must not speak of another one.
 TEST(RankCandidates, RanksTheLeaderAtThePlaceThatWasChosen) {
   ToyLandscape toy({10.0, 3.0});
-  toy.Add("effect", {1.0, 0.3}, "better place");
-  const Hypothesis chosen = toy.Add("effect", {1.0, 0.0}, "chosen place");
+  toy.Add(role::kEffect, {1.0, 0.3}, "better place");
+  const Hypothesis chosen = toy.Add(role::kEffect, {1.0, 0.0}, "chosen place");
   CauseSelection found = toy.Found({chosen});
   RankCandidates(toy, ThoroughRules(), found);
   EXPECT_EQ(found.candidates.front().place, "chosen place");
@@ -48,21 +48,21 @@ TEST(RankCandidates, RanksTheLeaderAtThePlaceThatWasChosen) {
 
 TEST(RankCandidates, OfAFirstAnswerTakesTheScoresOfTheFits) {
   ToyLandscape toy({10.0, 9.9});
-  toy.Add("x", {1.0, 0.0});
-  toy.Add("y", {0.0, 1.0});
+  toy.Add(role::kX, {1.0, 0.0});
+  toy.Add(role::kY, {0.0, 1.0});
   CauseSelection found = toy.Found({});
-  found.refitted = {{"x", "here", 1.0, 0, true}};
+  found.refitted = {{role::kX, "here", 1.0, 0, true}};
   RankCandidates(toy, ThoroughRules(), found);
-  EXPECT_EQ(found.candidates.front().effect, "y");
-  EXPECT_EQ(CandidateOf(found, "x").score, 1.0);
-  EXPECT_TRUE(CandidateOf(found, "x").refitted);
+  EXPECT_EQ(found.candidates.front().effect, role::kY);
+  EXPECT_EQ(CandidateOf(found, role::kX).score, 1.0);
+  EXPECT_TRUE(CandidateOf(found, role::kX).refitted);
 }
 
 /// A leader, and an alternative that the linearisation puts a little behind it.
 struct Near {
   ToyLandscape toy{{10.0, 3.0}};
-  Hypothesis leader = toy.Add("leader", {1.0, 0.3});
-  Hypothesis alternative = toy.Add("alternative", {1.0, 0.1});
+  Hypothesis leader = toy.Add(role::kLeader, {1.0, 0.3});
+  Hypothesis alternative = toy.Add(role::kAlternative, {1.0, 0.1});
   CauseSelection found = toy.Found({leader});
 
   void Refit() {
@@ -74,33 +74,34 @@ struct Near {
 TEST(RefitAlternatives, KeepsTheLeaderThatTheNonlinearModelConfirms) {
   Near n;
   n.Refit();
-  EXPECT_EQ(n.found.causes.front().effect, "leader");
-  EXPECT_TRUE(CandidateOf(n.found, "alternative").refitted);
+  EXPECT_EQ(n.found.causes.front().effect, role::kLeader);
+  EXPECT_TRUE(CandidateOf(n.found, role::kAlternative).refitted);
   EXPECT_NEAR(n.found.leader_evidence, n.toy.EvidenceOf({n.leader}), 1e-9);
 }
 
 TEST(RefitAlternatives, PutsABetterOneFirstAndKeepsTheOldLeaderAsContender) {
   Near n;
-  n.toy.fitted[{"alternative"}] = n.toy.EvidenceOf({n.leader}) + 2.0;
+  n.toy.fitted[{role::kAlternative}] = n.toy.EvidenceOf({n.leader}) + 2.0;
   n.Refit();
-  EXPECT_EQ(n.found.causes.front().effect, "alternative");
-  EXPECT_EQ(n.found.candidates.front().effect, "alternative");
+  EXPECT_EQ(n.found.causes.front().effect, role::kAlternative);
+  EXPECT_EQ(n.found.candidates.front().effect, role::kAlternative);
   EXPECT_NEAR(n.found.leader_evidence, n.toy.EvidenceOf({n.leader}) + 2.0, 1e-9);
   ASSERT_EQ(n.found.contenders.size(), 1U) << "2 nat do not refute it";
-  EXPECT_EQ(n.found.contenders.front().causes.front().effect, "leader");
+  EXPECT_EQ(n.found.contenders.front().causes.front().effect, role::kLeader);
 }
 
 TEST(RefitAlternatives, DropsAContenderThatIsRefuted) {
   Near n;
-  n.toy.fitted[{"alternative"}] = n.toy.EvidenceOf({n.leader}) + 20.0;
+  n.toy.fitted[{role::kAlternative}] = n.toy.EvidenceOf({n.leader}) + 20.0;
   n.Refit();
   EXPECT_TRUE(n.found.contenders.empty());
 }
 
 TEST(RefitAlternatives, FitsNoMoreThanItMay) {
   Near n;
+  const auto* more = role::kOneMore.begin();
   for (const double share : {0.12, 0.14, 0.16, 0.18, 0.2, 0.22}) {
-    n.toy.Add("one_more_" + std::to_string(share), {1.0, share});
+    n.toy.Add(*more++, {1.0, share});
   }
   n.found = n.toy.Found({n.leader});
   SelectionRules rules = ThoroughRules();
@@ -113,9 +114,9 @@ TEST(RefitAlternatives, FitsNoMoreThanItMay) {
 
 TEST(RefitAlternatives, OfALeaderThatCannotBeFittedChangesNothing) {
   Near n;
-  n.toy.refused.insert({"leader"});
+  n.toy.refused.insert({role::kLeader});
   n.Refit();
-  EXPECT_EQ(n.found.causes.front().effect, "leader");
+  EXPECT_EQ(n.found.causes.front().effect, role::kLeader);
   EXPECT_EQ(n.found.leader_evidence, std::numeric_limits<double>::infinity());
   EXPECT_FALSE(DropFailedLeader(n.toy, ThoroughRules(), n.found));
 }
@@ -123,21 +124,21 @@ TEST(RefitAlternatives, OfALeaderThatCannotBeFittedChangesNothing) {
 // The screen gave the leader 47 nat beside the other; refitted, the other explains all but 2 nat.
 TEST(DropFailedLeader, DropsOneThatTheOthersDoNotNeed) {
   ToyLandscape toy({10.0, 8.0});
-  const Hypothesis leader = toy.Add("leader", {1.0, 0.0});
-  const Hypothesis other = toy.Add("other", {0.0, 1.0});
+  const Hypothesis leader = toy.Add(role::kLeader, {1.0, 0.0});
+  const Hypothesis other = toy.Add(role::kOther, {0.0, 1.0});
   CauseSelection found = toy.Found({leader, other});
   found.leader_evidence = toy.EvidenceOf({leader, other});
-  toy.fitted[{"other"}] = found.leader_evidence - 2.0;
+  toy.fitted[{role::kOther}] = found.leader_evidence - 2.0;
   EXPECT_TRUE(DropFailedLeader(toy, ThoroughRules(), found));
   ASSERT_EQ(found.causes.size(), 1U);
-  EXPECT_EQ(found.causes.front().effect, "other");
+  EXPECT_EQ(found.causes.front().effect, role::kOther);
   EXPECT_EQ(toy.linearised.size(), 1U);
 }
 
 TEST(DropFailedLeader, KeepsOneThatIsDecisive) {
   ToyLandscape toy({10.0, 8.0});
-  const Hypothesis leader = toy.Add("leader", {1.0, 0.0});
-  const Hypothesis other = toy.Add("other", {0.0, 1.0});
+  const Hypothesis leader = toy.Add(role::kLeader, {1.0, 0.0});
+  const Hypothesis other = toy.Add(role::kOther, {0.0, 1.0});
   CauseSelection found = toy.Found({leader, other});
   found.leader_evidence = toy.EvidenceOf({leader, other});
   EXPECT_FALSE(DropFailedLeader(toy, ThoroughRules(), found));
@@ -147,7 +148,7 @@ TEST(DropFailedLeader, KeepsOneThatIsDecisive) {
 
 TEST(DropFailedLeader, LeavesTheCalibratedModelWhereTheOnlyCauseFails) {
   ToyLandscape toy({3.0});
-  const Hypothesis only = toy.Add("only", {1.0});
+  const Hypothesis only = toy.Add(role::kOnly, {1.0});
   CauseSelection found = toy.Found({only});
   found.leader_evidence = toy.EvidenceOf({only});
   found.calibrated = {0.25};

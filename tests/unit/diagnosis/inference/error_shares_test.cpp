@@ -41,7 +41,7 @@ std::vector<Record> Noise() {
 
 Hypothesis CauseOf(std::size_t term, const std::vector<Term>& terms) {
   Hypothesis cause;
-  cause.effect = terms[term].effect_name();
+  cause.effect = terms[term].effect.value();
   cause.place = "de_x";
   cause.terms = {term};
   cause.directions = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(terms.size()), 1);
@@ -64,10 +64,10 @@ TEST(ErrorShares, AreThoseOfTheSquaredErrorAndAddUpToOne) {
                                 ReadingOf(effect::Id::kExtraDelay, kDeX, 330.0)};
   const auto shares = Shares(terms, {kSize, 3.0 * kSize}, {CauseOf(0, terms)});
   ASSERT_EQ(shares.size(), 2U);
-  EXPECT_EQ(shares[0].effect, "extra_delay");
+  EXPECT_EQ(shares[0].effect, effect::Id::kExtraDelay);
   EXPECT_EQ(shares[0].place, "") << "calibrated";
   EXPECT_NEAR(shares[0].share, 0.9, 0.03);
-  EXPECT_EQ(shares[1].effect, "eddy_current");
+  EXPECT_EQ(shares[1].effect, effect::Id::kEddyCurrent);
   EXPECT_EQ(shares[1].place, "de_x") << "a cause";
   EXPECT_NEAR(shares[0].share + shares[1].share, 1.0, 0.01);
 }
@@ -87,7 +87,7 @@ TEST(ErrorShares, TakeTheCalibratedNumbersOfAnEffectTogetherAndLeaveOutWhatStaye
                                 ReadingOf(effect::Id::kExtraDelay, kDeX, 330.0)};
   const auto shares = Shares(terms, {kSize, kSize, 0.0}, {});
   ASSERT_EQ(shares.size(), 1U);
-  EXPECT_EQ(shares[0].effect, "eddy_current");
+  EXPECT_EQ(shares[0].effect, effect::Id::kEddyCurrent);
   EXPECT_NEAR(shares[0].share, 1.0, 0.01);
 }
 

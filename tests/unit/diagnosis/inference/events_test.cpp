@@ -42,7 +42,7 @@ Residual WithNoise(double factor, std::size_t axis = 0) {
   return residual;
 }
 
-double Score(const std::vector<Candidate>& found, const std::string& effect) {
+double Score(const std::vector<Candidate>& found, effect::Id effect) {
   for (const Candidate& candidate : found) {
     if (candidate.effect == effect) return candidate.score;
   }
@@ -64,7 +64,7 @@ TEST(EventsTest, MissingCyclesAreLostFrames) {
   for (const int at : {400, 1400, 2400}) record.rows.erase(record.rows.begin() + at);
   const auto found = FindEvents(TheRig(), {record}, WithNoise(1.0));
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].effect, "dropped_samples");
+  EXPECT_EQ(found[0].effect, effect::Id::kDroppedSamples);
   EXPECT_EQ(found[0].place, "3 frames");
   EXPECT_GT(found[0].score, kDecisive);
 }
@@ -73,7 +73,8 @@ TEST(EventsTest, AReadingThatRepeatsOnAllAxesIsALostFrameAndOnOneIsChance) {
   Record record = NoisyRecord(3, 5000);
   record.rows[700].sample.position_m = record.rows[699].sample.position_m;
   record.rows[900].sample.position_m = record.rows[899].sample.position_m;
-  EXPECT_GT(Score(FindEvents(TheRig(), {record}, WithNoise(1.0)), "dropped_samples"), kDecisive);
+  EXPECT_GT(Score(FindEvents(TheRig(), {record}, WithNoise(1.0)), effect::Id::kDroppedSamples),
+            kDecisive);
   Record one = NoisyRecord(3, 5000);
   one.rows[700].sample.position_m[2] = one.rows[699].sample.position_m[2];
   EXPECT_TRUE(FindEvents(TheRig(), {one}, WithNoise(1.0)).empty());
@@ -89,7 +90,7 @@ TEST(EventsTest, FramesLostWhileTheRotorLiesDoNotCount) {
 TEST(EventsTest, ANoiseBeyondItsToleranceIsNamedWithItsChannel) {
   const auto found = FindEvents(TheRig(), {NoisyRecord(5, 5000)}, WithNoise(1.5, 2));
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].effect, "sensor_noise");
+  EXPECT_EQ(found[0].effect, effect::Id::kSensorNoise);
   EXPECT_EQ(found[0].place, "nde_x");
   // A sixteenth more is within what a healthy rig shows.
   EXPECT_TRUE(FindEvents(TheRig(), {NoisyRecord(5, 5000)}, WithNoise(1.06, 2)).empty());
@@ -105,15 +106,18 @@ RigView Holding(effect::Id id, std::initializer_list<double> values) {
 TEST(EventsTest, WhatTheRigFileKnowsToBeLostOrNoisyIsNoCause) {
   Record record = NoisyRecord(7, 5000);
   for (int k = 0; k < 50; ++k) record.rows.erase(record.rows.begin() + 90 * (50 - k));
-  EXPECT_GT(Score(FindEvents(TheRig(), {record}, WithNoise(1.0)), "dropped_samples"), kDecisive);
+  EXPECT_GT(Score(FindEvents(TheRig(), {record}, WithNoise(1.0)), effect::Id::kDroppedSamples),
+            kDecisive);
   const RigView losing = Holding(effect::Id::kDroppedSamples, {0.01, 1.0});
   EXPECT_TRUE(FindEvents(losing, {record}, WithNoise(1.0)).empty());
   const RigView rarely = Holding(effect::Id::kDroppedSamples, {0.002, 1.0});
-  EXPECT_GT(Score(FindEvents(rarely, {record}, WithNoise(1.0)), "dropped_samples"), kDecisive);
+  EXPECT_GT(Score(FindEvents(rarely, {record}, WithNoise(1.0)), effect::Id::kDroppedSamples),
+            kDecisive);
 
   const Record healthy = NoisyRecord(8, 5000);
   const RigView noisy = Holding(effect::Id::kSensorNoise, {1.5 * kNoise, 0.0});
-  EXPECT_GT(Score(FindEvents(noisy, {healthy}, WithNoise(1.0)), "sensor_noise"), kDecisive);
+  EXPECT_GT(Score(FindEvents(noisy, {healthy}, WithNoise(1.0)), effect::Id::kSensorNoise),
+            kDecisive);
   Residual residual = WithNoise(1.0);
   for (auto& channel : residual.channels) channel.noise_rms_m = 1.5 * kNoise;
   EXPECT_TRUE(FindEvents(noisy, {healthy}, residual).empty());

@@ -32,7 +32,7 @@ std::vector<Term> TwoTerms() {
 
 Hypothesis Cause(bool positive = false) {
   Hypothesis h;
-  h.effect = "cause";
+  h.effect = effect::Id::kRotorMass;
   h.place = "somewhere";
   h.directions = Eigen::MatrixXd::Zero(2, 1);
   h.directions(1, 0) = 1.0;

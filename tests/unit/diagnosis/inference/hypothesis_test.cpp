@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "plant_sim/effect/catalogue.hpp"
 #include "tests/unit/diagnosis/moments.hpp"
 
 namespace levitas::diagnosis {
@@ -15,30 +16,31 @@ namespace {
 
 class HypothesesTest : public ::testing::Test {
  protected:
-  [[nodiscard]] const Hypothesis& Of(const std::string& effect, const std::string& place) const {
+  [[nodiscard]] const Hypothesis& Of(effect::Id effect, const std::string& place) const {
     for (const Hypothesis& h : all_) {
       if (h.effect == effect && h.place == place) return h;
     }
-    throw std::runtime_error("no hypothesis " + effect + " at " + place);
+    throw std::runtime_error("no hypothesis " + std::string(effect::At(effect).name) + " at " +
+                             place);
   }
   std::vector<Term> terms_ = EveryTerm();
   std::vector<Hypothesis> all_ = MakeHypotheses(TheRig(), terms_);
 };
 
 TEST_F(HypothesesTest, EveryEffectWithATermIsConsideredAndNoOther) {
-  std::set<std::string> of_terms;
+  std::set<effect::Id> of_terms;
   for (const Term& term : terms_) {
-    if (term.effect) of_terms.emplace(term.effect_name());
+    if (term.effect) of_terms.insert(*term.effect);
   }
-  std::set<std::string> considered;
+  std::set<effect::Id> considered;
   for (const Hypothesis& h : all_) considered.insert(h.effect);
   EXPECT_EQ(considered, of_terms);
 }
 
 TEST_F(HypothesesTest, EveryEffectCountsTheSameWhateverTheNumberOfItsPlaces) {
-  std::map<std::string, double> weight;
+  std::map<effect::Id, double> weight;
   for (const Hypothesis& h : all_) weight[h.effect] += std::exp(h.log_prior);
-  for (const auto& [effect, sum] : weight) EXPECT_NEAR(sum, 1.0, 1e-9) << effect;
+  for (const auto& [effect, sum] : weight) EXPECT_NEAR(sum, 1.0, 1e-9) << effect::At(effect).name;
 }
 
 TEST_F(HypothesesTest, DirectionsMoveTheNamedTermsAndNoOther) {
@@ -48,14 +50,14 @@ TEST_F(HypothesesTest, DirectionsMoveTheNamedTermsAndNoOther) {
     ASSERT_GT(h.directions.cols(), 0);
     for (std::size_t i = 0; i < terms_.size(); ++i) {
       const double size = h.directions.row(static_cast<Eigen::Index>(i)).norm();
-      EXPECT_EQ(size > 0.0, named.contains(i)) << h.effect << " at " << h.place;
+      EXPECT_EQ(size > 0.0, named.contains(i)) << effect::At(h.effect).name << " at " << h.place;
     }
-    for (const std::size_t i : h.terms) EXPECT_EQ(terms_[i].effect_name(), h.effect);
+    for (const std::size_t i : h.terms) EXPECT_EQ(terms_[i].effect, h.effect);
   }
 }
 
 TEST_F(HypothesesTest, ABearingMovesBothAxesByTheSameAmount) {
-  const Hypothesis& h = Of("current_gain", "nde");
+  const Hypothesis& h = Of(effect::Id::kCurrentGain, "nde");
   ASSERT_EQ(h.directions.cols(), 1);
   ASSERT_EQ(h.terms.size(), 2U);
   EXPECT_EQ(terms_[h.terms[0]].location.name, "nde_x");
@@ -66,13 +68,13 @@ TEST_F(HypothesesTest, ABearingMovesBothAxesByTheSameAmount) {
 
 TEST_F(HypothesesTest, TheNameOfABearingIsNotFoundWithinAnothers) {
   // "de" ends "nde".
-  for (const std::size_t i : Of("current_gain", "de").terms) {
+  for (const std::size_t i : Of(effect::Id::kCurrentGain, "de").terms) {
     EXPECT_TRUE(terms_[i].location.name.starts_with("de_")) << terms_[i].location.name;
   }
 }
 
 TEST_F(HypothesesTest, AHarmonicMovesItsCosineAndItsSine) {
-  const Hypothesis& h = Of("unbalance", "z 299.2 mm");
+  const Hypothesis& h = Of(effect::Id::kUnbalance, "z 299.2 mm");
   ASSERT_EQ(h.terms.size(), 2U);
   EXPECT_EQ(terms_[h.terms[0]].parameter, "cosine");
   EXPECT_EQ(terms_[h.terms[1]].parameter, "sine");
@@ -80,9 +82,9 @@ TEST_F(HypothesesTest, AHarmonicMovesItsCosineAndItsSine) {
 }
 
 TEST_F(HypothesesTest, ASignIsAskedOfSingleAmountsOnly) {
-  EXPECT_TRUE(Of("eddy_current", "de_x").positive);
-  EXPECT_FALSE(Of("eddy_current", "every axis by itself").positive);
-  EXPECT_FALSE(Of("current_gain", "de_x").positive);
+  EXPECT_TRUE(Of(effect::Id::kEddyCurrent, "de_x").positive);
+  EXPECT_FALSE(Of(effect::Id::kEddyCurrent, "every axis by itself").positive);
+  EXPECT_FALSE(Of(effect::Id::kCurrentGain, "de_x").positive);
 }
 
 TEST_F(HypothesesTest, FormsOfOneLawAreNeverMixed) {
@@ -96,20 +98,20 @@ TEST_F(HypothesesTest, FormsOfOneLawAreNeverMixed) {
 
 TEST_F(HypothesesTest, GridsOfAShapeAreAlternativesAndNeverSummed) {
   for (const Hypothesis& h : all_) {
-    if (h.effect == "magnetic_saturation" || h.effect == "support_mode" ||
-        h.effect == "touchdown_rub" || h.effect == "hysteresis") {
+    if (h.effect == effect::Id::kMagneticSaturation || h.effect == effect::Id::kSupportMode ||
+        h.effect == effect::Id::kTouchdownRub || h.effect == effect::Id::kHysteresis) {
       // Stiffness and damping of one ring belong together.
-      EXPECT_EQ(h.terms.size(), h.effect == "touchdown_rub" ? 2U : 1U)
-          << h.effect << " at " << h.place;
+      EXPECT_EQ(h.terms.size(), h.effect == effect::Id::kTouchdownRub ? 2U : 1U)
+          << effect::At(h.effect).name << " at " << h.place;
     }
   }
 }
 
 TEST_F(HypothesesTest, RunoutIsConsideredByAxisByBearingAndByOrder) {
-  EXPECT_EQ(Of("sensor_runout", "order 2, de_x").terms.size(), 2U);
-  EXPECT_EQ(Of("sensor_runout", "order 2, de").terms.size(), 4U);
-  EXPECT_EQ(Of("sensor_runout", "order 2, all axes").terms.size(), 8U);
-  EXPECT_EQ(Of("sensor_runout", "all orders, all axes").terms.size(), 24U);
+  EXPECT_EQ(Of(effect::Id::kSensorRunout, "order 2, de_x").terms.size(), 2U);
+  EXPECT_EQ(Of(effect::Id::kSensorRunout, "order 2, de").terms.size(), 4U);
+  EXPECT_EQ(Of(effect::Id::kSensorRunout, "order 2, all axes").terms.size(), 8U);
+  EXPECT_EQ(Of(effect::Id::kSensorRunout, "all orders, all axes").terms.size(), 24U);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ TEST_F(ModeProbeTest, BeginsAtTheLineBesideTheModesFrequency) {
   const auto probes = Probes(0.5e-6, 1.1);
   ASSERT_EQ(probes.size(), 1U);
   EXPECT_EQ(hypotheses_[probes[0].hypothesis].place, "mode 2");
-  EXPECT_EQ(terms_[probes[0].term].effect_name(), "modal_frequency");
+  EXPECT_EQ(terms_[probes[0].term].effect, effect::Id::kModalFrequency);
   EXPECT_NEAR(probes[0].theta, 0.1, 0.01);  // lines are 5 Hz apart
 }
 

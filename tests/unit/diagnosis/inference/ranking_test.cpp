@@ -9,7 +9,7 @@
 namespace levitas::diagnosis {
 namespace {
 
-Hypothesis Named(const std::string& effect) {
+Hypothesis Named(effect::Id effect) {
   Hypothesis h;
   h.effect = effect;
   return h;
@@ -26,44 +26,46 @@ std::vector<Trajectory> ValidationRuns(double factor) {
 }
 
 TEST(RankingTest, TiesAreAllWithinTheDecisiveMargin) {
-  const std::vector<Candidate> candidates{{"unbalance", "", 20.0, 0, true},
-                                          {"shaft_bow", "", 16.0, 1, true},
-                                          {"rotor_mass", "", 14.0, 2, true}};
-  EXPECT_EQ(Ties(candidates, {Named("unbalance")}, 5.0, 0.0),
-            std::vector<std::string>{"shaft_bow"});
+  const std::vector<Candidate> candidates{{effect::Id::kUnbalance, "", 20.0, 0, true},
+                                          {effect::Id::kShaftBow, "", 16.0, 1, true},
+                                          {effect::Id::kRotorMass, "", 14.0, 2, true}};
+  EXPECT_EQ(Ties(candidates, {Named(effect::Id::kUnbalance)}, 5.0, 0.0),
+            std::vector<effect::Id>{effect::Id::kShaftBow});
 }
 
 TEST(RankingTest, StrongCausesTieWithinAShareOfTheirEvidence) {
-  const std::vector<Candidate> candidates{{"sensor_runout", "", 10'000.0, 0, true},
-                                          {"misalignment", "", 9'900.0, 1, true},
-                                          {"shaft_bow", "", 9'700.0, 2, true},
-                                          {"mains_pickup", "", 9'950.0, 3, false}};
+  const std::vector<Candidate> candidates{{effect::Id::kSensorRunout, "", 10'000.0, 0, true},
+                                          {effect::Id::kMisalignment, "", 9'900.0, 1, true},
+                                          {effect::Id::kShaftBow, "", 9'700.0, 2, true},
+                                          {effect::Id::kMainsPickup, "", 9'950.0, 3, false}};
   // What was only screened is not known so exactly.
-  EXPECT_EQ(Ties(candidates, {Named("sensor_runout")}, 5.0, 0.02),
-            std::vector<std::string>{"misalignment"});
+  EXPECT_EQ(Ties(candidates, {Named(effect::Id::kSensorRunout)}, 5.0, 0.02),
+            std::vector<effect::Id>{effect::Id::kMisalignment});
 }
 
 TEST(RankingTest, WhatValidationDataRefuteIsNoTie) {
-  std::vector<Candidate> candidates{{"sensor_runout", "", 10'000.0, 0, true},
-                                    {"misalignment", "", 9'900.0, 1, true}};
+  std::vector<Candidate> candidates{{effect::Id::kSensorRunout, "", 10'000.0, 0, true},
+                                    {effect::Id::kMisalignment, "", 9'900.0, 1, true}};
   candidates[0].validation_nat = -4000.0;
   candidates[1].validation_nat = 3000.0;
-  EXPECT_TRUE(Ties(candidates, {Named("misalignment")}, 5.0, 0.02).empty());
+  EXPECT_TRUE(Ties(candidates, {Named(effect::Id::kMisalignment)}, 5.0, 0.02).empty());
   candidates[0].validation_nat = 3000.0;
-  EXPECT_EQ(Ties(candidates, {Named("misalignment")}, 5.0, 0.02),
-            std::vector<std::string>{"sensor_runout"});
+  EXPECT_EQ(Ties(candidates, {Named(effect::Id::kMisalignment)}, 5.0, 0.02),
+            std::vector<effect::Id>{effect::Id::kSensorRunout});
 }
 
 TEST(RankingTest, ACauseThatIsNotNamedForItsEvidenceHasNoTies) {
-  const std::vector<Candidate> candidates{{"shaft_bow", "", 4.0, 1, true},
-                                          {"current_gain", "", 1.9, 0, true}};
-  EXPECT_TRUE(Ties(candidates, {Named("current_gain")}, 5.0, 0.0).empty());
+  const std::vector<Candidate> candidates{{effect::Id::kShaftBow, "", 4.0, 1, true},
+                                          {effect::Id::kCurrentGain, "", 1.9, 0, true}};
+  EXPECT_TRUE(Ties(candidates, {Named(effect::Id::kCurrentGain)}, 5.0, 0.0).empty());
 }
 
 TEST(RankingTest, ACauseOfItsOwnIsNoTie) {
-  const std::vector<Candidate> candidates{{"unbalance", "", 20.0, 0, true},
-                                          {"shaft_bow", "", 16.0, 1, true}};
-  EXPECT_TRUE(Ties(candidates, {Named("unbalance"), Named("shaft_bow")}, 5.0, 0.0).empty());
+  const std::vector<Candidate> candidates{{effect::Id::kUnbalance, "", 20.0, 0, true},
+                                          {effect::Id::kShaftBow, "", 16.0, 1, true}};
+  EXPECT_TRUE(
+      Ties(candidates, {Named(effect::Id::kUnbalance), Named(effect::Id::kShaftBow)}, 5.0, 0.0)
+          .empty());
 }
 
 TEST(RankingTest, AModelThatIsWorseOnValidationDataLoses) {

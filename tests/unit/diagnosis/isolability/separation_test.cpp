@@ -20,7 +20,7 @@ std::vector<Term> ThreeTerms() {
           MakeTerm({Id::kShaftBow, Everywhere("there"), "size", "1"}, 0.0, 1.0, nullptr)};
 }
 
-Hypothesis Moving(const std::string& effect, Eigen::Index term) {
+Hypothesis Moving(Id effect, Eigen::Index term) {
   Hypothesis h;
   h.effect = effect;
   h.place = "somewhere";
@@ -30,7 +30,7 @@ Hypothesis Moving(const std::string& effect, Eigen::Index term) {
   return h;
 }
 
-std::vector<Hypothesis> Causes() { return {Moving("unbalance", 1), Moving("shaft_bow", 2)}; }
+std::vector<Hypothesis> Causes() { return {Moving(Id::kUnbalance, 1), Moving(Id::kShaftBow, 2)}; }
 
 /// Slopes of unit columns times 10, with cosines between nuisance and first, and first and second
 /// cause; the fault is `size` of the first cause.
@@ -47,7 +47,7 @@ LinearProblem Signature(double with_nuisance, double with_second, double size) {
 }
 
 Prediction Of(const LinearProblem& signature) {
-  return Predict("unbalance", signature, ThreeTerms(), Causes(), Judging{});
+  return Predict(Id::kUnbalance, signature, ThreeTerms(), Causes(), Judging{});
 }
 
 TEST(Separation, ASignatureThatNothingElseHasIsFoundWithHalfItsSquaredNorm) {
@@ -68,7 +68,7 @@ TEST(Separation, WhatCalibrationMayTakeIsNotVisible) {
 TEST(Separation, CausesOfTheSameSignatureAreTiedAndLeaveNothingOfEachOther) {
   const Prediction p = Of(Signature(0.0, 1.0, 1.0));
   EXPECT_EQ(p.isolation, Isolation::kTied);
-  EXPECT_EQ(p.ties, std::vector<std::string>{"shaft_bow"});
+  EXPECT_EQ(p.ties, std::vector<Id>{Id::kShaftBow});
   EXPECT_LT(p.alternatives[0].left_nat, 1.0);
 }
 
@@ -88,11 +88,11 @@ TEST(Separation, TheShareOfTheSizeFromWhichItIsVisibleMakesItJustDecisive) {
 }
 
 TEST(Separation, AnEventIsVisibleByItsEvidenceAloneAndTiedWithNothing) {
-  EXPECT_EQ(PredictEvent("sensor_noise", 4.0, Judging{}).isolation, Isolation::kNotVisible);
-  EXPECT_EQ(PredictEvent("sensor_noise", 6.0, Judging{}).isolation, Isolation::kFound);
+  EXPECT_EQ(PredictEvent(Id::kSensorNoise, 4.0, Judging{}).isolation, Isolation::kNotVisible);
+  EXPECT_EQ(PredictEvent(Id::kSensorNoise, 6.0, Judging{}).isolation, Isolation::kFound);
 }
 
-Foretold Tied(const std::string& effect, std::vector<std::string> with) {
+Foretold Tied(Id effect, std::vector<Id> with) {
   Foretold one;
   one.prediction.effect = effect;
   one.prediction.ties = std::move(with);
@@ -101,10 +101,13 @@ Foretold Tied(const std::string& effect, std::vector<std::string> with) {
 
 TEST(TiedGroups, HoldAllThatHangTogetherAndNoneThatStandsAlone) {
   const auto groups = TiedGroups(
-      {Tied("a", {"b"}), Tied("c", {"d"}), Tied("b", {"c"}), Tied("e", {}), Tied("x", {"y"})});
+      {Tied(Id::kAmplifierSlew, {Id::kBacklash}), Tied(Id::kCurrentGain, {Id::kExtraDelay}),
+       Tied(Id::kBacklash, {Id::kCurrentGain}), Tied(Id::kHysteresis, {}),
+       Tied(Id::kRotorMass, {Id::kUnbalance})});
   ASSERT_EQ(groups.size(), 2U);
-  EXPECT_EQ(groups[0], (std::vector<std::string>{"a", "b", "c", "d"}));
-  EXPECT_EQ(groups[1], (std::vector<std::string>{"x", "y"}));
+  EXPECT_EQ(groups[0], (std::vector<Id>{Id::kAmplifierSlew, Id::kBacklash, Id::kCurrentGain,
+                                        Id::kExtraDelay}));
+  EXPECT_EQ(groups[1], (std::vector<Id>{Id::kRotorMass, Id::kUnbalance}));
 }
 
 }  // namespace

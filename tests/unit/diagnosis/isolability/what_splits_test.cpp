@@ -10,7 +10,7 @@ namespace {
 Prediction IsolatedAs(Isolation isolation, std::size_t ties = 0) {
   Prediction p;
   p.isolation = isolation;
-  p.ties.assign(ties, "another");
+  p.ties.assign(ties, effect::Id::kUnbalance);
   return p;
 }
 

@@ -25,9 +25,10 @@ using ::testing::StartsWith;
 DiagnosisResult WithCandidate(double nat, bool refitted) {
   DiagnosisResult s = NothingFound();
   s.answer.candidates.push_back(
-      {.effect = "rotor_mass", .place = "rotor", .score = nat, .refitted = refitted});
+      {.effect = effect::Id::kRotorMass, .place = "rotor", .score = nat, .refitted = refitted});
   for (int i = 0; i < 33; ++i) {
-    s.answer.candidates.push_back({.effect = "eddy_current", .place = "de_x", .score = -10.0});
+    s.answer.candidates.push_back(
+        {.effect = effect::Id::kEddyCurrent, .place = "de_x", .score = -10.0});
   }
   return s;
 }
@@ -47,7 +48,7 @@ DiagnosisResult WithGainOff(double deviations, double tolerances) {
 std::string RubPlace() {
   const DiagnosisResult nothing = NothingFound();
   for (const Hypothesis& h : MakeHypotheses(*nothing.view, nothing.terms)) {
-    if (h.effect == "touchdown_rub") return h.place;
+    if (h.effect == effect::Id::kTouchdownRub) return h.place;
   }
   return {};
 }
@@ -56,12 +57,13 @@ TEST(Headline, OfEveryCauseIsInWordsWithItsIdInBrackets) {
   const DiagnosisResult nothing = NothingFound();
   for (const Hypothesis& h : MakeHypotheses(*nothing.view, nothing.terms)) {
     const DiagnosisReport report = BuildReport(Found(h.effect, h.place));
-    const std::string words(FindWords(report, h.effect)->name);
-    const std::string opposite(FindWords(report, h.effect)->opposite);
+    const std::string id(effect::At(h.effect).name);
+    const std::string words(FindWords(report, id)->name);
+    const std::string opposite(FindWords(report, id)->opposite);
     EXPECT_TRUE(report.headline.starts_with(words) ||
                 (!opposite.empty() && report.headline.starts_with(opposite)))
         << report.headline;
-    EXPECT_THAT(report.headline, HasSubstr("[" + h.effect + "]"));
+    EXPECT_THAT(report.headline, HasSubstr("[" + id + "]"));
     EXPECT_THAT(report.headline, Not(HasSubstr("nat")));
     EXPECT_THAT(report.headline, Not(HasSubstr("  "))) << h.place;
     EXPECT_THAT(report.action, Not(IsEmpty()));
@@ -70,21 +72,21 @@ TEST(Headline, OfEveryCauseIsInWordsWithItsIdInBrackets) {
 }
 
 TEST(Headline, SaysPlaceAndSizeOnce) {
-  const DiagnosisReport weak = BuildReport(Found("current_gain", "nde_x", -0.5));
+  const DiagnosisReport weak = BuildReport(Found(effect::Id::kCurrentGain, "nde_x", -0.5));
   // half of a prior deviation of 0.15
   EXPECT_THAT(weak.headline,
               StartsWith("Bearing pulls too weakly for its current at nde_x, by 7.5 % "
                          "[current_gain]: nearly certain"));
-  EXPECT_THAT(BuildReport(Found("current_gain", "nde_x")).headline,
+  EXPECT_THAT(BuildReport(Found(effect::Id::kCurrentGain, "nde_x")).headline,
               StartsWith("Bearing pulls too strongly"));
-  EXPECT_THAT(BuildReport(Found("unbalance", "z 299.2 mm")).headline,
+  EXPECT_THAT(BuildReport(Found(effect::Id::kUnbalance, "z 299.2 mm")).headline,
               StartsWith("Unbalance near z = 299 mm, 14.1 g mm [unbalance]"));
-  EXPECT_THAT(BuildReport(Found("modal_frequency", "mode 1")).headline,
+  EXPECT_THAT(BuildReport(Found(effect::Id::kModalFrequency, "mode 1")).headline,
               StartsWith("A bending mode lies elsewhere (bending mode 1), "));
 }
 
 TEST(Headline, NamesOfEveryAxisByItselfThoseOfWhichItIsTrue) {
-  DiagnosisResult s = Found("current_gain", "every axis by itself");
+  DiagnosisResult s = Found(effect::Id::kCurrentGain, "every axis by itself");
   ASSERT_EQ(s.answer.parameters.size(), 4U);
   const auto say = [&s](const std::vector<double>& gains) {
     for (std::size_t i = 0; i < gains.size(); ++i) {
@@ -104,13 +106,14 @@ TEST(Odds, ArePowersOfTen) {
   EXPECT_EQ(OddsText(14.0), "10^6 : 1");       // 1 202 604
   EXPECT_EQ(OddsText(5.0), "10^2 : 1");        // 148
   EXPECT_EQ(OddsText(std::log(4.0)), "4 : 1");
-  EXPECT_THAT(BuildReport(Found("eddy_current", "de_x")).headline, HasSubstr("odds 10^8 : 1"));
+  EXPECT_THAT(BuildReport(Found(effect::Id::kEddyCurrent, "de_x")).headline,
+              HasSubstr("odds 10^8 : 1"));
 }
 
 TEST(Action, StopsTheMachineForACrackAndNotForALateCurrent) {
   DiagnosisResult found = NothingFound();
   for (const Hypothesis& h : MakeHypotheses(*found.view, found.terms)) {
-    if (h.effect == "breathing_crack") found = Found(h.effect, h.place);
+    if (h.effect == effect::Id::kBreathingCrack) found = Found(h.effect, h.place);
   }
   const DiagnosisReport crack = BuildReport(found);
   ASSERT_FALSE(crack.causes.empty());
@@ -123,11 +126,12 @@ TEST(Action, StopsTheMachineForACrackAndNotForALateCurrent) {
   found.answer.probability = 0.7;
   EXPECT_THAT(BuildReport(found).action, StartsWith("Run no further than you must"));
   EXPECT_THAT(BuildReport(found).headline, StartsWith("Suspected, 70 %: Crack in the shaft"));
-  EXPECT_THAT(BuildReport(Found("extra_delay", "all axes")).action, HasSubstr("may run on"));
+  EXPECT_THAT(BuildReport(Found(effect::Id::kExtraDelay, "all axes")).action,
+              HasSubstr("may run on"));
 }
 
 TEST(Headline, DoesNotSuspectWhatForetellsTheRecordsWorseThanTheRigFile) {
-  DiagnosisReport report = BuildReport(Found("extra_delay", "all axes"));
+  DiagnosisReport report = BuildReport(Found(effect::Id::kExtraDelay, "all axes"));
   report.verdict = Verdict::kSuspected;
   report.confidence = 0.9999;
   report.validation.nominal_percent = 60.5;
@@ -142,7 +146,7 @@ TEST(Headline, DoesNotSuspectWhatForetellsTheRecordsWorseThanTheRigFile) {
 }
 
 TEST(Action, ChangesNothingOnTheMachineWhileTheInputIsDoubted) {
-  DiagnosisReport report = BuildReport(Found("touchdown_rub", RubPlace()));
+  DiagnosisReport report = BuildReport(Found(effect::Id::kTouchdownRub, RubPlace()));
   report.input_warning = "units are wrong";
   CompleteReport(report);
   EXPECT_THAT(report.action, StartsWith("First check units"));
@@ -181,10 +185,10 @@ TEST(Coherence, EveryDecisiveCandidateThatIsNotNamedSaysWhy) {
                                      : "linearised"));
     }
   }
-  DiagnosisResult named = Found("eddy_current", "de_x");
+  DiagnosisResult named = Found(effect::Id::kEddyCurrent, "de_x");
   named.answer.candidates.insert(
       named.answer.candidates.begin(),
-      {.effect = "rotor_mass", .place = "rotor", .score = 31.0, .refitted = true});
+      {.effect = effect::Id::kRotorMass, .place = "rotor", .score = 31.0, .refitted = true});
   EXPECT_THAT(BuildReport(named).candidates.front().reason, Not(HasSubstr("less than")))
       << "it explains more";
   EXPECT_LT(BuildReport(named).confidence, 0.01) << "of the cause, not of the leader";
@@ -204,7 +208,7 @@ TEST(Coherence, ANumberThatIsMeasurablyOffIsSaidAndLeadsToHealthyRecords) {
 }
 
 TEST(Coherence, NothingIsInOrderBesideACause) {
-  EXPECT_FALSE(AllInOrder(BuildReport(Found("current_gain", "nde_x"))));
+  EXPECT_FALSE(AllInOrder(BuildReport(Found(effect::Id::kCurrentGain, "nde_x"))));
   EXPECT_TRUE(AllInOrder(BuildReport(NothingFound())));
 }
 

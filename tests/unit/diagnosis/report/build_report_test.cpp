@@ -15,7 +15,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 TEST(BuildReportTest, KeepsTheCauseWithItsPlaceChannelsAndFactor) {
-  const DiagnosisReport report = BuildReport(Found("current_gain", "nde_x"));
+  const DiagnosisReport report = BuildReport(Found(effect::Id::kCurrentGain, "nde_x"));
   EXPECT_EQ(report.verdict, Verdict::kEffect);
   ASSERT_EQ(report.causes.size(), 1U);
   EXPECT_EQ(report.causes[0].effect, "current_gain");
@@ -31,7 +31,7 @@ TEST(BuildReportTest, KeepsTheCauseWithItsPlaceChannelsAndFactor) {
 TEST(BuildReportTest, OutlivesTheRigThatItWasBuiltFrom) {
   DiagnosisReport report;
   {
-    const DiagnosisResult result = Found("unbalance", "z 299.2 mm");
+    const DiagnosisResult result = Found(effect::Id::kUnbalance, "z 299.2 mm");
     report = BuildReport(result);
   }
   EXPECT_EQ(report.channels.size(), 4U);
@@ -48,8 +48,9 @@ TEST(BuildReportTest, OfAHealthyRigHasNoCauseNoPlaceAndNoWarning) {
 }
 
 TEST(BuildReportTest, KeepsCandidatesInOrderWithAnImpossibleOneAsMinusInfinity) {
-  DiagnosisResult result = Found("current_gain", "nde_x");
-  result.answer.candidates.push_back({.effect = "hysteresis", .place = "de", .score = -INFINITY});
+  DiagnosisResult result = Found(effect::Id::kCurrentGain, "nde_x");
+  result.answer.candidates.push_back(
+      {.effect = effect::Id::kHysteresis, .place = "de", .score = -INFINITY});
   const DiagnosisReport report = BuildReport(result);
   ASSERT_EQ(report.candidates.size(), 2U);
   EXPECT_EQ(report.candidates[0].evidence_nat, 20.0);
@@ -77,16 +78,16 @@ TEST(BuildReportTest, SaysWhichEffectsARotorAtRestCannotShow) {
 }
 
 TEST(BuildReportTest, SaysOfEveryCandidateWhyItIsNotTheAnswer) {
-  DiagnosisResult result = Found("current_gain", "nde_x");
-  const auto add = [&result](const char* effect, double nat) {
+  DiagnosisResult result = Found(effect::Id::kCurrentGain, "nde_x");
+  const auto add = [&result](effect::Id effect, double nat) {
     result.answer.candidates.push_back({.effect = effect, .place = "de", .score = nat});
   };
-  add("sensor_gain", 18.0);
-  add("extra_delay", 12.0);
-  add("unbalance", 1.0);
-  add("shaft_bow", -2.0);
-  add("hysteresis", -INFINITY);
-  result.answer.also_possible = {"sensor_gain"};
+  add(effect::Id::kSensorGain, 18.0);
+  add(effect::Id::kExtraDelay, 12.0);
+  add(effect::Id::kUnbalance, 1.0);
+  add(effect::Id::kShaftBow, -2.0);
+  add(effect::Id::kHysteresis, -INFINITY);
+  result.answer.also_possible = {effect::Id::kSensorGain};
   std::vector<std::string> reasons;
   for (const ReportCandidate& c : BuildReport(result).candidates) reasons.push_back(c.reason);
   EXPECT_THAT(reasons,
@@ -97,7 +98,7 @@ TEST(BuildReportTest, SaysOfEveryCandidateWhyItIsNotTheAnswer) {
 }
 
 TEST(BuildReportTest, HoldsTheTextOfTheRigFilesWhereARigIsGiven) {
-  const DiagnosisResult result = Found("eddy_current", "de_x");
+  const DiagnosisResult result = Found(effect::Id::kEddyCurrent, "de_x");
   EXPECT_EQ(BuildReport(result).extended_rig, "");
   const DiagnosisReport report = BuildReport(result, FlexibleRotor());
   EXPECT_EQ(configuration::ParseRig(report.extended_rig, "extended_rig.yaml").plant.effects.size(),

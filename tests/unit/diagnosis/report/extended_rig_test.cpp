@@ -37,15 +37,16 @@ TEST(ExtendedRigTest, WithoutACauseIsTheNominalRig) {
 
 TEST(ExtendedRigTest, IsReadBackForEveryEffectAtEveryPlace) {
   const DiagnosisResult nothing = NothingFound();
-  std::set<std::string> effects;
+  std::set<effect::Id> effects;
   for (const Hypothesis& h : MakeHypotheses(*nothing.view, nothing.terms)) {
     effects.insert(h.effect);
     const DiagnosisResult answer = Found(h.effect, h.place);
     const std::string text = ExtendedRig(answer, FlexibleRotor());
-    EXPECT_THAT(text, Not(HasSubstr("not known to this build"))) << h.effect << " at " << h.place;
+    EXPECT_THAT(text, Not(HasSubstr("not known to this build")))
+        << effect::At(h.effect).name << " at " << h.place;
     const configuration::RigFile rig = configuration::ParseRig(text, "extended_rig.yaml");
-    EXPECT_EQ(rig.plant.effects.size(), EffectEntries(answer).size()) << h.effect;
-    EXPECT_FALSE(rig.plant.effects.empty()) << h.effect << " at " << h.place;
+    EXPECT_EQ(rig.plant.effects.size(), EffectEntries(answer).size()) << effect::At(h.effect).name;
+    EXPECT_FALSE(rig.plant.effects.empty()) << effect::At(h.effect).name << " at " << h.place;
   }
   EXPECT_GT(effects.size(), 25U);
 }
@@ -57,26 +58,26 @@ TEST(ExtendedRigTest, SaysThePresentEffectInTheUnitsOfTheFile) {
     return entries.front();
   };
   // half of the prior standard deviation 0.15
-  const effect::EffectConfig gain = only(Found("current_gain", "nde_x"));
+  const effect::EffectConfig gain = only(Found(effect::Id::kCurrentGain, "nde_x"));
   EXPECT_EQ(gain.id, effect::Id::kCurrentGain);
   EXPECT_EQ(gain.axes, 0b0100U);
   EXPECT_EQ(gain.values[0], 1.075);
   // sqrt(tau) of 5e-3 s^0.5, half of it: 6.25 us
-  EXPECT_THAT(ExtendedRig(Found("eddy_current", "de_x"), FlexibleRotor()),
+  EXPECT_THAT(ExtendedRig(Found(effect::Id::kEddyCurrent, "de_x"), FlexibleRotor()),
               HasSubstr("tau_us: 6.25\n"));
-  EXPECT_EQ(only(Found("eddy_current", "de_x")).values[1], 1.0);
-  EXPECT_EQ(only(Found("eddy_current", "de_x, current alone")).values[1], 0.0);
+  EXPECT_EQ(only(Found(effect::Id::kEddyCurrent, "de_x")).values[1], 1.0);
+  EXPECT_EQ(only(Found(effect::Id::kEddyCurrent, "de_x, current alone")).values[1], 0.0);
   // 5 N
-  const effect::EffectConfig load = only(Found("static_load", "de_y"));
+  const effect::EffectConfig load = only(Found(effect::Id::kStaticLoad, "de_y"));
   EXPECT_EQ(load.values[1], 0.0);
   EXPECT_EQ(load.values[2], 2.5);
   // 0.05 rad
-  const effect::EffectConfig turned = only(Found("axis_rotation", "sensor nde"));
+  const effect::EffectConfig turned = only(Found(effect::Id::kAxisRotation, "sensor nde"));
   EXPECT_EQ(turned.bearing, 1U);
   EXPECT_TRUE(turned.on_sensor);
   EXPECT_NEAR(turned.values[0], 0.025, 1e-7);
   // cosine and sine of 10e-6 kg m each: an eighth of a turn, sqrt(2) times one of them
-  const effect::EffectConfig unbalance = only(Found("unbalance", "z 299.2 mm"));
+  const effect::EffectConfig unbalance = only(Found(effect::Id::kUnbalance, "z 299.2 mm"));
   EXPECT_EQ(unbalance.values[0], 0.2992);
   EXPECT_NEAR(unbalance.values[1], 10e-6 * std::numbers::sqrt2, 1e-10);
   EXPECT_NEAR(unbalance.values[2], 0.25 * std::numbers::pi, 1e-9);
@@ -84,7 +85,7 @@ TEST(ExtendedRigTest, SaysThePresentEffectInTheUnitsOfTheFile) {
 
 TEST(ExtendedRigTest, GivesACrackTheDepthThatSoftensTheShaftAsMuch) {
   const configuration::RigFile rig =
-      ReadBack(Found("breathing_crack", "z 228.6 mm, direction 90.0 deg"));
+      ReadBack(Found(effect::Id::kBreathingCrack, "z 228.6 mm, direction 90.0 deg"));
   ASSERT_EQ(rig.plant.effects.size(), 1U);
   const auto& [z_m, depth, phase_rad] =
       std::tie(rig.plant.effects[0].values[0], rig.plant.effects[0].values[1],
@@ -107,14 +108,14 @@ TEST(ExtendedRigTest, GivesACrackTheDepthThatSoftensTheShaftAsMuch) {
 }
 
 TEST(ExtendedRigTest, ChangesNothingButTheEffects) {
-  configuration::RigFile rig = ReadBack(Found("modal_frequency", "mode 2"));
+  configuration::RigFile rig = ReadBack(Found(effect::Id::kModalFrequency, "mode 2"));
   ASSERT_EQ(rig.plant.effects.size(), 1U);
   rig.plant.effects.clear();
   EXPECT_EQ(configuration::WriteRig(rig), configuration::WriteRig(FlexibleRotor()));
 }
 
 TEST(ExtendedRigTest, HoldsThePhaseUnderTheKeyAndWithTheDigitsThatAreTold) {
-  DiagnosisResult answer = Found("unbalance", "z 299.2 mm");
+  DiagnosisResult answer = Found(effect::Id::kUnbalance, "z 299.2 mm");
   for (const std::size_t t : answer.answer.causes.front().terms) {
     answer.answer.theta_extended[t] = answer.terms[t].parameter == "sine" ? 7.3e-6 : -25.1e-6;
   }
@@ -125,14 +126,14 @@ TEST(ExtendedRigTest, HoldsThePhaseUnderTheKeyAndWithTheDigitsThatAreTold) {
 }
 
 TEST(ExtendedRigTest, NamesTheParametersWithTheirIntervals) {
-  const std::string text = ExtendedRig(Found("current_gain", "de_x"), FlexibleRotor());
+  const std::string text = ExtendedRig(Found(effect::Id::kCurrentGain, "de_x"), FlexibleRotor());
   // 1.075 and 1.645 standard deviations of 0.0075 either side
   EXPECT_THAT(text, HasSubstr("# current_gain"));
   EXPECT_THAT(text, HasSubstr("ratio[de_x] = 1.075 (1.063 to 1.087, 90 % interval)"));
 }
 
 TEST(CalibratedRigTest, IsReadBackWithWhatWasCalibratedAndTheCause) {
-  DiagnosisResult answer = Found("eddy_current", "de_x");
+  DiagnosisResult answer = Found(effect::Id::kEddyCurrent, "de_x");
   for (std::size_t t = 0; t < answer.terms.size(); ++t) {
     const Term& term = answer.terms[t];
     if (!term.nuisance() || term.effect_name() == "eddy_current") continue;

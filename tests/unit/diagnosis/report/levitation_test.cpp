@@ -83,7 +83,7 @@ TEST(LevitationPair, ACalibratedRigThatDoesNotSaysSoAtItsHead) {
 
 TEST(LevitationPair, ACauseThatTakesTheLevitationAwayIsSaidOfBothFiles) {
   const auto with_cause = [](double share) {
-    DiagnosisResult s = Found("displacement_stiffness", "all axes", share);
+    DiagnosisResult s = Found(effect::Id::kDisplacementStiffness, "all axes", share);
     s.known_laws = ShippedLaw();
     return BuildReport(s, FlexibleRotor()).levitation;
   };

@@ -29,7 +29,7 @@ std::string Rig(const std::string& text) {
 }
 
 /// An event as FindEvents names it, without a term.
-DiagnosisResult Event(const char* effect, const char* place) {
+DiagnosisResult Event(effect::Id effect, const char* place) {
   DiagnosisResult s = NothingFound();
   s.answer.verdict = Verdict::kEffect;
   Hypothesis cause;
@@ -43,23 +43,24 @@ DiagnosisResult Event(const char* effect, const char* place) {
 TEST(NamedCause, HasAParameterAndChangesTheRigFileInBothDirections) {
   const std::string nominal = configuration::WriteRig(FlexibleRotor());
   const DiagnosisResult nothing = NothingFound();
-  std::set<std::string> first;
+  std::set<effect::Id> first;
   for (const Hypothesis& h : MakeHypotheses(*nothing.view, nothing.terms)) {
     for (const double share : {0.5, -0.5}) {
       const bool positive = std::any_of(h.terms.begin(), h.terms.end(),
                                         [&](std::size_t t) { return nothing.terms[t].positive; });
       if (share < 0.0 && (positive || !first.insert(h.effect).second)) continue;
       const DiagnosisResult found = Found(h.effect, h.place, share);
-      EXPECT_FALSE(Parameters(found).empty()) << h.effect << " at " << h.place << share;
+      EXPECT_FALSE(Parameters(found).empty())
+          << effect::At(h.effect).name << " at " << h.place << share;
       EXPECT_NE(Rig(ExtendedRig(found, FlexibleRotor())), nominal)
-          << h.effect << " at " << h.place << share;
+          << effect::At(h.effect).name << " at " << h.place << share;
     }
   }
 }
 
 TEST(NamedCause, ADelayShorterThanTheFilesIsAValueOfTheFilesOwnKey) {
   // Half of the prior deviation of half a sample less than the file's one.
-  const DiagnosisResult found = Found("extra_delay", "all axes", -0.5);
+  const DiagnosisResult found = Found(effect::Id::kExtraDelay, "all axes", -0.5);
   const auto parameters = Parameters(found);
   ASSERT_EQ(parameters.size(), 1U);
   EXPECT_EQ(parameters[0].key, "delay_samples");
@@ -82,7 +83,7 @@ TEST(NamedCause, ADelayShorterThanTheFilesIsAValueOfTheFilesOwnKey) {
 }
 
 TEST(NamedCause, OfLostFramesIsHowOftenTheyAreLostAndHowManyInARow) {
-  DiagnosisResult s = Event("dropped_samples", "300 frames");
+  DiagnosisResult s = Event(effect::Id::kDroppedSamples, "300 frames");
   s.lost_frames = {.sent = 100200, .lost = 300, .bursts = 100};
   const auto parameters = Parameters(s);
   ASSERT_EQ(parameters.size(), 2U);
@@ -98,7 +99,7 @@ TEST(NamedCause, OfLostFramesIsHowOftenTheyAreLostAndHowManyInARow) {
 }
 
 TEST(NamedCause, OfNoiseIsItsLevelWithoutTheConvertersSteps) {
-  DiagnosisResult s = Event("sensor_noise", "de_y, nde_y");
+  DiagnosisResult s = Event(effect::Id::kSensorNoise, "de_y, nde_y");
   const auto& sensor = s.view->bearing(1).sensor;
   // Twice the noise of the file, and the same steps.
   const double steps =
@@ -124,9 +125,10 @@ TEST(NamedCause, OfNoiseIsItsLevelWithoutTheConvertersSteps) {
 }
 
 TEST(NamedCause, SaysOfABracketWhatItIs) {
-  EXPECT_THAT(BuildReport(Found("eddy_current", "de_x")).verdict_sentence,
+  EXPECT_THAT(BuildReport(Found(effect::Id::kEddyCurrent, "de_x")).verdict_sentence,
               HasSubstr("(4.363 to 8.475, 90 % interval)"));
-  const std::string slew = BuildReport(Found("amplifier_slew", "1500 A/s")).verdict_sentence;
+  const std::string slew =
+      BuildReport(Found(effect::Id::kAmplifierSlew, "1500 A/s")).verdict_sentence;
   EXPECT_THAT(slew, HasSubstr("neighbouring forms)"));
   EXPECT_THAT(slew, testing::Not(HasSubstr("90 %")));
 }

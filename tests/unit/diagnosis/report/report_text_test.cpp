@@ -28,7 +28,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 
 TEST(ParametersTest, OfAHarmonicAreItsAmplitudeAndItsPhase) {
-  const auto parameters = Parameters(Found("unbalance", "z 299.2 mm"));
+  const auto parameters = Parameters(Found(effect::Id::kUnbalance, "z 299.2 mm"));
   ASSERT_EQ(parameters.size(), 2U);
   for (const NamedParameter& p : parameters) {
     EXPECT_LT(p.low, p.value);
@@ -41,7 +41,7 @@ TEST(ParametersTest, OfAHarmonicAreItsAmplitudeAndItsPhase) {
 }
 
 TEST(ParametersTest, OfAnUnbalanceSayWhatItMakesWithTheOneOfTheFile) {
-  const DiagnosisResult found = Found("unbalance", "z 299.2 mm");
+  const DiagnosisResult found = Found(effect::Id::kUnbalance, "z 299.2 mm");
   // The file has 18 g mm at 0 there, the cause 10 along x and 10 along y: 28 and 10.
   for (const NamedParameter& p : Parameters(found)) {
     ASSERT_TRUE(p.of_file.has_value()) << p.key;
@@ -53,11 +53,11 @@ TEST(ParametersTest, OfAnUnbalanceSayWhatItMakesWithTheOneOfTheFile) {
       TotalSentences(Parameters(found)),
       ElementsAre(AllOf(HasSubstr("14.14 g mm at 45.0 deg is added to the 18 g mm at 0.0 deg"),
                         HasSubstr("in all 29.73 g mm at 19.7 deg"))));
-  EXPECT_THAT(TotalSentences(Parameters(Found("eddy_current", "de_x"))), IsEmpty());
+  EXPECT_THAT(TotalSentences(Parameters(Found(effect::Id::kEddyCurrent, "de_x"))), IsEmpty());
 }
 
 TEST(ParametersTest, OfADelaySayWhatItMakesWithTheOneOfTheFile) {
-  const DiagnosisResult found = Found("extra_delay", "all axes");
+  const DiagnosisResult found = Found(effect::Id::kExtraDelay, "all axes");
   for (const NamedParameter& p : Parameters(found)) {
     ASSERT_TRUE(p.of_file.has_value()) << p.key;
     EXPECT_NEAR(p.of_file->nominal, 100.0, 1e-9);  // one period of 10 kHz
@@ -67,13 +67,14 @@ TEST(ParametersTest, OfADelaySayWhatItMakesWithTheOneOfTheFile) {
 }
 
 TEST(CalibratedValues, SayWhichOfThemACauseHasTaken) {
-  EXPECT_THAT(TakenByCauses(Found("unbalance", "z 299.2 mm")), ElementsAre("unbalance z 299.2 mm"));
-  EXPECT_THAT(TakenByCauses(Found("eddy_current", "de_x")), IsEmpty());
+  EXPECT_THAT(TakenByCauses(Found(effect::Id::kUnbalance, "z 299.2 mm")),
+              ElementsAre("unbalance z 299.2 mm"));
+  EXPECT_THAT(TakenByCauses(Found(effect::Id::kEddyCurrent, "de_x")), IsEmpty());
   EXPECT_THAT(TakenByCauses(NothingFound()), IsEmpty());
 }
 
 TEST(ParametersTest, OfAnEddyCurrentAreItsTimeConstant) {
-  const auto parameters = Parameters(Found("eddy_current", "de_x"));
+  const auto parameters = Parameters(Found(effect::Id::kEddyCurrent, "de_x"));
   ASSERT_EQ(parameters.size(), 1U);
   EXPECT_EQ(parameters[0].name, "tau_us[de_x]");
   EXPECT_EQ(parameters[0].unit, "us");
@@ -86,27 +87,26 @@ TEST(ParametersTest, OfAnEddyCurrentAreItsTimeConstant) {
 TEST(ParametersTest, OfEveryEffectHaveTheKeysOfTheCatalogueInTheUnitsOfAFile) {
   const DiagnosisResult nothing = NothingFound();
   for (const Hypothesis& h : MakeHypotheses(*nothing.view, nothing.terms)) {
-    const effect::Row* row = effect::Find(h.effect);
-    ASSERT_NE(row, nullptr) << h.effect;
+    const effect::Row& row = effect::At(h.effect);
     const auto parameters = Parameters(Found(h.effect, h.place));
-    EXPECT_FALSE(parameters.empty()) << h.effect << " at " << h.place;
+    EXPECT_FALSE(parameters.empty()) << effect::At(h.effect).name << " at " << h.place;
     for (const NamedParameter& p : parameters) {
       // Angles may be given in any unit of angle.
       const bool in_catalogue = std::any_of(
-          row->parameters.begin(), row->parameters.end(), [&p](const effect::Parameter& known) {
+          row.parameters.begin(), row.parameters.end(), [&p](const effect::Parameter& known) {
             const std::string stem(known.stem);
             return p.key == stem || p.key == stem + "_" + std::string(known.file_suffix);
           });
-      EXPECT_TRUE(in_catalogue) << h.effect << " " << p.key;
-      EXPECT_LE(p.low, p.value) << h.effect << " " << p.key;
-      EXPECT_GE(p.high, p.value) << h.effect << " " << p.key;
-      EXPECT_LT(p.low, p.high) << h.effect << " " << p.key;
+      EXPECT_TRUE(in_catalogue) << row.name << " " << p.key;
+      EXPECT_LE(p.low, p.value) << row.name << " " << p.key;
+      EXPECT_GE(p.high, p.value) << row.name << " " << p.key;
+      EXPECT_LT(p.low, p.high) << row.name << " " << p.key;
     }
   }
 }
 
 TEST(ParametersTest, SayOfALawsFormThatItsBracketIsNoInterval) {
-  for (const NamedParameter& p : Parameters(Found("amplifier_slew", "1500 A/s"))) {
+  for (const NamedParameter& p : Parameters(Found(effect::Id::kAmplifierSlew, "1500 A/s"))) {
     EXPECT_EQ(p.key, "slew_a_per_s");
     EXPECT_TRUE(p.form);
     // The neighbouring members lie 0.4 to either side in the logarithm.
@@ -116,7 +116,7 @@ TEST(ParametersTest, SayOfALawsFormThatItsBracketIsNoInterval) {
 }
 
 TEST(ParametersTest, OfAGainAreTheFactorOnTheNominalValue) {
-  const auto parameters = Parameters(Found("current_gain", "nde_x"));
+  const auto parameters = Parameters(Found(effect::Id::kCurrentGain, "nde_x"));
   ASSERT_EQ(parameters.size(), 1U);
   EXPECT_NEAR(parameters[0].value, 1.075, 1e-12);
 }
@@ -127,19 +127,17 @@ TEST(PlaceTest, OfEveryTermOfEveryKindOfRigIsThatOfTheCatalogue) {
     const RigView view(rig.numbers, rig.plant);
     for (const Term& term : AllTerms(view, Tolerances{}, 50e-6)) {
       if (!term.effect) continue;
-      EXPECT_EQ(PlaceOfEffect(std::string(term.effect_name())),
-                effect::Name(effect::At(*term.effect).place))
+      EXPECT_EQ(PlaceOfEffect(*term.effect), effect::Name(effect::At(*term.effect).place))
           << term.effect_name();
     }
   }
-  EXPECT_EQ(PlaceOfEffect("current_gain"), "amplifier");
-  EXPECT_EQ(PlaceOfEffect("tooth_crack"), "gear");
-  EXPECT_THROW((void)PlaceOfEffect("no_effect"), std::logic_error);
+  EXPECT_EQ(PlaceOfEffect(effect::Id::kCurrentGain), "amplifier");
+  EXPECT_EQ(PlaceOfEffect(effect::Id::kToothCrack), "gear");
 }
 
 TEST(PlaceTest, OfARotatedAxisIsWhereItsFrameIsRotated) {
-  EXPECT_EQ(PlaceOf(Found("axis_rotation", "sensor de")), "sensor");
-  EXPECT_EQ(PlaceOf(Found("axis_rotation", "magnet de")), "magnet");
+  EXPECT_EQ(PlaceOf(Found(effect::Id::kAxisRotation, "sensor de")), "sensor");
+  EXPECT_EQ(PlaceOf(Found(effect::Id::kAxisRotation, "magnet de")), "magnet");
   EXPECT_EQ(PlaceOf(NothingFound()), "");
 }
 
@@ -155,15 +153,15 @@ TEST(PlaceTest, OfAnUnknownIsThatOfWhatItFollows) {
 }
 
 TEST(ChannelsTest, AreThoseOfTheCause) {
-  EXPECT_THAT(Channels(Found("current_gain", "nde_x")), ElementsAre("nde_x"));
-  EXPECT_THAT(Channels(Found("current_gain", "de")), ElementsAre("de_x", "de_y"));
-  EXPECT_THAT(Channels(Found("sensor_runout", "order 2, de_y")), ElementsAre("de_y"));
-  EXPECT_EQ(Channels(Found("unbalance", "z 299.2 mm")).size(), 4U);
+  EXPECT_THAT(Channels(Found(effect::Id::kCurrentGain, "nde_x")), ElementsAre("nde_x"));
+  EXPECT_THAT(Channels(Found(effect::Id::kCurrentGain, "de")), ElementsAre("de_x", "de_y"));
+  EXPECT_THAT(Channels(Found(effect::Id::kSensorRunout, "order 2, de_y")), ElementsAre("de_y"));
+  EXPECT_EQ(Channels(Found(effect::Id::kUnbalance, "z 299.2 mm")).size(), 4U);
   EXPECT_THAT(Channels(NothingFound()), IsEmpty());
 }
 
 TEST(VerdictTest, NamesTheCauseTheUnknownOrNothing) {
-  EXPECT_THAT(BuildReport(Found("unbalance", "z 299.2 mm")).verdict_sentence,
+  EXPECT_THAT(BuildReport(Found(effect::Id::kUnbalance, "z 299.2 mm")).verdict_sentence,
               HasSubstr("unbalance"));
   EXPECT_THAT(BuildReport(NothingFound()).verdict_sentence, Not(HasSubstr("unbalance")));
   DiagnosisResult s = NothingFound();
@@ -173,7 +171,7 @@ TEST(VerdictTest, NamesTheCauseTheUnknownOrNothing) {
 
 /// What is left, as multiples of the noise, on data used and on validation data.
 DiagnosisResult OnValidation(double fitted, double held, double calibrated) {
-  DiagnosisResult s = Found("eddy_current", "all axes");
+  DiagnosisResult s = Found(effect::Id::kEddyCurrent, "all axes");
   s.separate_validation = true;
   s.fitted.extended_over_noise = fitted * fitted;
   s.validation.extended_over_noise = held * held;
@@ -223,7 +221,7 @@ TEST(VerdictTest, OfNothingSaysWhatTheRecordsCannotTell) {
   EXPECT_THAT(BuildReport(standing).verdict_sentence,
               AllOf(HasSubstr("as far as these records"), HasSubstr("does not turn"),
                     HasSubstr("unbalance"), Not(HasSubstr("extra_delay"))));
-  EXPECT_THAT(UnobservableEffects(standing), ::testing::Contains("misalignment"));
+  EXPECT_THAT(UnobservableEffects(standing), ::testing::Contains(effect::Id::kMisalignment));
   EXPECT_THAT(BuildReport(standing).next_experiment, HasSubstr("spinning"));
 
   const DiagnosisResult quiet = NothingFoundIn(300.0, false);
@@ -273,13 +271,13 @@ TEST(CalibratedValues, AreTotalsUnderTheKeysOfTheFileWithWhatTheyMovedBy) {
 }
 
 TEST(ConfidenceTest, FallsWithARivalAndWithALowScore) {
-  DiagnosisResult s = Found("eddy_current", "de_x");
+  DiagnosisResult s = Found(effect::Id::kEddyCurrent, "de_x");
   const double alone = BuildReport(s).confidence;
   EXPECT_GT(alone, 0.99);
-  s.answer.candidates.push_back({.effect = "extra_delay", .place = "all", .score = 19.5});
+  s.answer.candidates.push_back({.effect = effect::Id::kExtraDelay, .place = "all", .score = 19.5});
   EXPECT_LT(BuildReport(s).confidence, 0.7);
   EXPECT_GT(BuildReport(s).confidence, 0.5);  // still the first of two
-  s = Found("eddy_current", "de_x");
+  s = Found(effect::Id::kEddyCurrent, "de_x");
   s.answer.candidates.front().score = 0.0;
   EXPECT_NEAR(BuildReport(s).confidence, 0.5, 1e-9);
 }
@@ -287,13 +285,13 @@ TEST(ConfidenceTest, FallsWithARivalAndWithALowScore) {
 TEST(ConfidenceTest, OfNoneIsAgainstAllCandidatesAndOfUnknownZero) {
   DiagnosisResult s = NothingFound();
   EXPECT_EQ(BuildReport(s).confidence, 1.0);
-  s.answer.candidates.push_back({.effect = "extra_delay", .place = "all", .score = 0.0});
+  s.answer.candidates.push_back({.effect = effect::Id::kExtraDelay, .place = "all", .score = 0.0});
   EXPECT_NEAR(BuildReport(s).confidence, 0.5, 1e-12);  // even odds
   s.answer.candidates.front().score = -std::log(3.0);
   EXPECT_NEAR(BuildReport(s).confidence, 0.75, 1e-12);  // three to one
   // Of two effects that explain as much as nothing, each is half as likely as that before.
   s.answer.candidates.front().score = 0.0;
-  s.answer.candidates.push_back({.effect = "rotor_mass", .place = "rotor", .score = 0.0});
+  s.answer.candidates.push_back({.effect = effect::Id::kRotorMass, .place = "rotor", .score = 0.0});
   EXPECT_NEAR(BuildReport(s).confidence, 0.5, 1e-12);
   s.answer.verdict = Verdict::kUnknown;
   s.answer.candidates.front().score = 334.0;
@@ -302,15 +300,15 @@ TEST(ConfidenceTest, OfNoneIsAgainstAllCandidatesAndOfUnknownZero) {
 
 TEST(VerdictTest, OfACauseSaysItsSizeWithItsIntervalAndWhatItsEvidenceIs) {
   // sqrt(tau) of 2.5e-3, known to 0.25e-3: 1.645 of it to either side, squared
-  EXPECT_THAT(BuildReport(Found("eddy_current", "de_x")).verdict_sentence,
+  EXPECT_THAT(BuildReport(Found(effect::Id::kEddyCurrent, "de_x")).verdict_sentence,
               AllOf(HasSubstr("tau_us 6.25 us (4.363 to 8.475, 90 % interval)"),
                     HasSubstr("20 nat, which is odds of 10^8 : 1")));
-  EXPECT_THAT(BuildReport(Found("unbalance", "z 299.2 mm")).verdict_sentence,
+  EXPECT_THAT(BuildReport(Found(effect::Id::kUnbalance, "z 299.2 mm")).verdict_sentence,
               HasSubstr("moment_g_mm 14.14 g mm"));
 }
 
 TEST(VerdictTest, OfACauseThatCalibrationCouldAbsorbSaysWhyItIsNamed) {
-  DiagnosisResult s = Found("eddy_current", "de_x");
+  DiagnosisResult s = Found(effect::Id::kEddyCurrent, "de_x");
   s.answer.candidates.front().score = 2.0;
   EXPECT_THAT(BuildReport(s).verdict_sentence,
               AllOf(HasSubstr("further from the rig file than its tolerances allow"),
@@ -338,26 +336,26 @@ TEST(PlanTest, IsAScenarioThatTheReaderTakesForEveryCause) {
     const std::string text = PlanScenario(BuildReport(Found(h.effect, h.place)), FlexibleRotor());
     const auto scenario =
         configuration::ParseScenario(text, "diagnosis_next.yaml", nothing.view->numbers);
-    ASSERT_GT(scenario.steps.size(), 2U) << h.effect;
+    ASSERT_GT(scenario.steps.size(), 2U) << effect::At(h.effect).name;
   }
 }
 
 TEST(PlanTest, ExcitesEveryAxisAndTurnsTheRotorForCausesOfRotation) {
   const std::string turning =
-      PlanScenario(BuildReport(Found("unbalance", "z 299.2 mm")), FlexibleRotor());
+      PlanScenario(BuildReport(Found(effect::Id::kUnbalance, "z 299.2 mm")), FlexibleRotor());
   for (const char* channel :
        {"channel: de_x", "channel: de_y", "channel: nde_x", "channel: nde_y"}) {
     EXPECT_THAT(turning, HasSubstr(channel));
   }
   EXPECT_THAT(turning, HasSubstr("do: spin"));
-  EXPECT_THAT(PlanScenario(BuildReport(Found("current_gain", "de_x")), FlexibleRotor()),
+  EXPECT_THAT(PlanScenario(BuildReport(Found(effect::Id::kCurrentGain, "de_x")), FlexibleRotor()),
               Not(HasSubstr("do: spin")));
 }
 
 TEST(PlanTest, UsesTheFastestClockForWhatDiffersAtHighFrequency) {
-  EXPECT_THAT(PlanScenario(BuildReport(Found("eddy_current", "de_x")), FlexibleRotor()),
+  EXPECT_THAT(PlanScenario(BuildReport(Found(effect::Id::kEddyCurrent, "de_x")), FlexibleRotor()),
               HasSubstr("divisor: 1}"));
-  EXPECT_THAT(PlanScenario(BuildReport(Found("current_gain", "de_x")), FlexibleRotor()),
+  EXPECT_THAT(PlanScenario(BuildReport(Found(effect::Id::kCurrentGain, "de_x")), FlexibleRotor()),
               HasSubstr("divisor: 2}"));
 }
 

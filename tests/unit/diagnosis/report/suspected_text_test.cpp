@@ -17,7 +17,7 @@ using ::testing::Not;
 
 /// A report of a suspected cause.
 DiagnosisReport Suspected(Doubt doubt, double probability) {
-  DiagnosisResult found = Found("eddy_current", "de_x");
+  DiagnosisResult found = Found(effect::Id::kEddyCurrent, "de_x");
   found.answer.verdict = Verdict::kSuspected;
   found.answer.doubt = doubt;
   found.answer.probability = probability;
@@ -39,7 +39,7 @@ TEST(SuspectedTest, SaysWhyAndHowLikely) {
 }
 
 TEST(SuspectedTest, IsNotSaidOfANamedCause) {
-  const DiagnosisReport named = BuildReport(Found("eddy_current", "de_x"));
+  const DiagnosisReport named = BuildReport(Found(effect::Id::kEddyCurrent, "de_x"));
   EXPECT_THAT(named.suspected_because, IsEmpty());
   EXPECT_THAT(named.verdict_sentence, Not(HasSubstr("Suspected")));
 }
