@@ -277,6 +277,7 @@ class Drawer {
       case ExternalId::kCouplingStiffness:
         Value(1) = 3e3 * size_;
         Value(2) = Between(-0.5, 0.5) * Value(1);
+        Value(3) = Between(-0.2, 0.2) * Value(1);
         break;
       case ExternalId::kCrossCoupledStiffness:
         Value(0) = nominal_.config.rotor.discs[1].z_m;

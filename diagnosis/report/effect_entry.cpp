@@ -148,7 +148,8 @@ EntryValues ExternalEntry(const RigView& rig, Id id, const PlacedEffect& at) {
   }
   if (id == Id::kCouplingStiffness) {
     return {Number("z_mm", 1e3 * at.location.z_m.value()),
-            Number("direct_n_per_m", at.At("direct")), Number("cross_n_per_m", at.At("cross"))};
+            Number("direct_n_per_m", at.At("direct")), Number("cross_n_per_m", at.At("cross")),
+            Number("whirl_n_per_m", at.At("whirl"))};
   }
   if (id == Id::kCrossCoupledStiffness) {
     return {Number("z_mm", 1e3 * at.location.z_m.value()),

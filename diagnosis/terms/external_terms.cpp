@@ -14,12 +14,16 @@ using effect::Id;
 
 enum class Kind { kDirect, kSymmetric, kAntisymmetric };
 
+const char* ParameterOf(Id effect, Kind kind) {
+  if (kind == Kind::kDirect) return "direct";
+  return kind == Kind::kAntisymmetric && effect == Id::kCouplingStiffness ? "whirl" : "cross";
+}
+
 /// A spring between shaft and ground at z: f = -(x, y), -(y, x) or (-y, x), times theta.
 Term Spring(const RigView& rig, Id effect, double z_m, Kind kind, double faulty_std) {
   const auto shape = rig.Shape(z_m);
-  const std::string parameter = kind == Kind::kDirect ? "direct" : "cross";
   return MakeTerm(
-      {effect, AtPlane(z_m), parameter, "N/m"}, 0.0, faulty_std,
+      {effect, AtPlane(z_m), ParameterOf(effect, kind), "N/m"}, 0.0, faulty_std,
       [shape, kind, modes = rig.modes](const SamplePoint& m, double theta, Contribution& add) {
         double x = 0.0;
         double y = 0.0;
@@ -136,6 +140,7 @@ std::vector<Term> ExternalTerms(const RigView& rig, const Tolerances& t, double 
   }
   terms.push_back(Spring(rig, Id::kCouplingStiffness, 0.0, Kind::kDirect, 5e3));
   terms.push_back(Spring(rig, Id::kCouplingStiffness, 0.0, Kind::kSymmetric, 5e3));
+  terms.push_back(Spring(rig, Id::kCouplingStiffness, 0.0, Kind::kAntisymmetric, 5e3));
   for (const auto& disc : rig.model->config().rotor.discs) {
     terms.push_back(Spring(rig, Id::kCrossCoupledStiffness, disc.z_m, Kind::kAntisymmetric, 5e3));
   }

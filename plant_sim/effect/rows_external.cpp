@@ -24,7 +24,11 @@ constexpr std::array kMisalignment{
 
 constexpr std::array kCouplingStiffness{
     Plane(0.0, 0.0), Signed("direct", "n_per_m", 1e9, 2e4, std::nullopt, "stiffness in x and in y"),
-    Signed("cross", "n_per_m", 1e9, 0.0, 0.0, "stiffness between x and y, symmetric")};
+    Signed("cross", "n_per_m", 1e9, 0.0, 0.0, "stiffness between x and y, symmetric"),
+    Signed(
+        "whirl", "n_per_m", 1e9, 0.0, 0.0,
+        "stiffness across the deflection, as of cross_coupled_stiffness; positive drives forward "
+        "whirl")};
 
 constexpr std::array kCrossCoupled{Plane(std::nullopt, 0.3),
                                    Signed("stiffness", "n_per_m", 1e9, 5e3, std::nullopt,
@@ -66,8 +70,10 @@ constexpr std::array kExternalRows{
         Facts{.repeats = true, .needs_rotation = true, .shows_in = Shows::kSpectrum}},
     Row{Id::kCouplingStiffness, "coupling_stiffness", Place::kExternal, Scope::kRig,
         kCouplingStiffness, "a spring at the drive end",
-        "f(z) = -[direct cross; cross direct] [x, y]",
-        "raises (softens, if negative) the rigid modes; conservative, so it does not damp or drive",
+        "f(z) = -[direct cross; cross direct] [x, y] + whirl [-y, x]",
+        "raises (softens, if negative) the rigid modes; conservative without whirl, so that it "
+        "then "
+        "neither damps nor drives",
         "Genta 2005, Dynamics of Rotating Systems, ch. 4",
         Facts{.repeats = true, .shows_in = Shows::kResponse, .modes = Modes::kOnTheRotor}},
     Row{Id::kCrossCoupledStiffness, "cross_coupled_stiffness", Place::kExternal, Scope::kRig,

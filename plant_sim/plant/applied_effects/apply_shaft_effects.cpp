@@ -173,7 +173,7 @@ void ApplyFromOutside(const EffectConfig& entry, const Values& values,
       ApplyMisalignment(values, shape, now, model.order_forces[slots.order_force++]);
       break;
     case ExternalId::kCouplingStiffness:
-      spring(values[1], values[2], values[2]);
+      spring(values[1], values[2] + values[3], values[2] - values[3]);
       break;
     case ExternalId::kCrossCoupledStiffness:
       spring(0.0, values[1], -values[1]);
