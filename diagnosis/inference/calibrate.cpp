@@ -15,20 +15,6 @@ constexpr std::size_t kStartRows = 30'000;
 constexpr int kStartPasses = 5;
 constexpr double kHeld = 0.2;  ///< of its tolerance
 
-/// Parameters of construction (gains, delays, modes, mass) stay near the file; parameters of state
-/// (unbalance, offset, load) are free.
-std::vector<Term> Held(std::vector<Term> terms) {
-  using effect::Id;
-  constexpr std::array kState{Id::kUnbalance, Id::kStaticLoad, Id::kSensorOffset,
-                              Id::kSensorRunout};
-  for (Term& term : terms) {
-    const bool of_state =
-        std::any_of(kState.begin(), kState.end(), [&term](Id id) { return term.effect == id; });
-    if (!of_state) term.tolerance *= kHeld;
-  }
-  return terms;
-}
-
 /// From the nominal rig: a fast observer on a few rows, then the one of `gains`.
 std::vector<double> FromFar(const RigView& rig, const Search& search,
                             const std::vector<Term>& terms, const std::vector<Record>& few,
@@ -66,10 +52,22 @@ bool IsLost(const RigView& rig, const Search& search, const std::vector<Record>&
 
 }  // namespace
 
+std::vector<Term> HeldToFile(std::vector<Term> terms) {
+  using effect::Id;
+  constexpr std::array kState{Id::kUnbalance, Id::kStaticLoad, Id::kSensorOffset,
+                              Id::kSensorRunout};
+  for (Term& term : terms) {
+    const bool of_state =
+        std::any_of(kState.begin(), kState.end(), [&term](Id id) { return term.effect == id; });
+    if (!of_state) term.tolerance *= kHeld;
+  }
+  return terms;
+}
+
 Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::vector<Term>& terms,
                            const std::vector<Record>& all, const std::vector<Record>& records,
                            const Gains& gains, const ObserverSpeed& speed, int passes) {
-  const std::vector<Term> held = Held(terms);
+  const std::vector<Term> held = HeldToFile(terms);
   const Search cautious(rig, held, std::nullopt, search.model_error_share());
   const std::vector<Record> part = Spans(all, kStartRows, rig.period_s);
   const std::vector<double> start =

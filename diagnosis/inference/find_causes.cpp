@@ -4,18 +4,36 @@
 
 #include "diagnosis/inference/loud_fault.hpp"
 #include "diagnosis/inference/selection_steps.hpp"
+#include "diagnosis/inference/swallowed_cause.hpp"
 #include "diagnosis/inference/whiten_anew.hpp"
 #include "diagnosis/model/divergence.hpp"
 
 namespace levitas::diagnosis {
 namespace {
 
+Runs CalibratedRuns(const RecordLandscape& landscape, const CauseSelection& found) {
+  return std::make_shared<const std::vector<Trajectory>>(landscape.RunAt(found.calibrated));
+}
+
+/// Whether the model is farther from the readings than under the faster observer: one that has the
+/// causes is as near, for it follows by itself.
+bool FallsBehind(const RecordLandscape& landscape, const std::vector<double>& theta,
+                 const Whitener& faster) {
+  constexpr double kTimes = 1.5;
+  const Whitener slower = landscape.search().WhitenerOf(landscape.RunAt(theta), 0);
+  for (std::size_t a = 0; a < landscape.rig().axes; ++a) {
+    if (faster.filter[a].front() > kTimes * slower.filter[a].front()) return true;
+  }
+  return false;
+}
+
 /// Back to slower observers, which see more, as far as the model with the causes found so far does
-/// not lose the rotor under them; not below `slowest`.
+/// not lose the rotor under them, nor falls behind; not below `slowest`.
 void SlowDown(RecordLandscape& landscape, const SelectionRules& rules, std::size_t slowest,
               CauseSelection& found) {
   while (landscape.speed() > slowest) {
     const std::size_t fast = landscape.speed();
+    const Whitener faster = landscape.search().WhitenerOf(landscape.RunAt(found.theta), 0);
     landscape.Observe(fast - 1);
     Refined fit;
     if (!ModelDiverges(landscape.rig(), landscape.RunAt(found.theta))) {
@@ -24,14 +42,13 @@ void SlowDown(RecordLandscape& landscape, const SelectionRules& rules, std::size
         fit = landscape.Fit(found.causes, found.theta, rules.effort.passes);
       }
     }
-    if (!fit.ok) {
+    if (!fit.ok || FallsBehind(landscape, fit.theta, faster)) {
       landscape.Observe(fast);
       return;
     }
     found.theta = fit.theta;
     if (!rules.effort.first_cause_only) RefineLastShape(landscape, fit, found);
-    found.calibrated_runs =
-        std::make_shared<const std::vector<Trajectory>>(landscape.RunAt(found.calibrated));
+    found.calibrated_runs = CalibratedRuns(landscape, found);
   }
 }
 
@@ -54,8 +71,12 @@ void FindCauses(RecordLandscape& landscape, const SelectionRules& rules, CauseSe
       landscape.LineariseAt(found.theta);
     }
     if (found.causes.empty()) found.calibrated_runs = landscape.view().runs;
+    const bool swallowed =
+        stage == 0 && !rules.effort.first_cause_only && TakeSwallowedCause(landscape, rules, found);
+    if (swallowed) found.calibrated_runs = CalibratedRuns(landscape, found);
     bool added =
-        found.causes.size() < rules.most_causes && AddCause(landscape, rules, share, found);
+        (found.causes.size() < rules.most_causes && AddCause(landscape, rules, share, found)) ||
+        swallowed;
     if (stage == 0) added = TakeLoudFault(landscape, rules, found) || added;
     if (!added) return;
     if (rules.effort.first_cause_only) {

@@ -86,6 +86,12 @@ bool NameOne(const RecordLandscape& landscape, const SelectionRules& rules, Caus
 
 }  // namespace
 
+double SurelyAway(const Term& term, const Fit& fit, const std::vector<double>& theta,
+                  std::size_t index) {
+  const double deviation = fit.deviation[static_cast<Eigen::Index>(index)] * term.scale();
+  return (std::abs(theta[index] - term.healthy_mean) - kSurely * deviation) / term.tolerance;
+}
+
 std::vector<std::size_t> MovedBeyond(const std::vector<Term>& terms, const Fit& fit,
                                      const std::vector<double>& theta,
                                      const std::vector<Hypothesis>& causes, double tolerances) {
@@ -93,9 +99,8 @@ std::vector<std::size_t> MovedBeyond(const std::vector<Term>& terms, const Fit& 
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const Term& term = terms[i];
     if (!term.nuisance() || !term.effect || Moves(causes, i)) continue;
-    const double deviation = fit.deviation[static_cast<Eigen::Index>(i)] * term.scale();
-    const double away = std::abs(theta[i] - term.healthy_mean) - kSurely * deviation;
-    if (away > tolerances * term.tolerance) moved.emplace_back(away / term.tolerance, i);
+    const double away = SurelyAway(term, fit, theta, i);
+    if (away > tolerances) moved.emplace_back(away, i);
   }
   std::sort(moved.rbegin(), moved.rend());
   std::vector<std::size_t> indices;

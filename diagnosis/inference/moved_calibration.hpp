@@ -22,6 +22,10 @@
 
 namespace levitas::diagnosis {
 
+/// [tolerances] that a nuisance is surely away from its healthy mean; below 0 where it need not be.
+[[nodiscard]] double SurelyAway(const Term& term, const Fit& fit, const std::vector<double>& theta,
+                                std::size_t index);
+
 /// Nuisances beyond, none of which a cause moves; the furthest in tolerances first.
 [[nodiscard]] std::vector<std::size_t> MovedBeyond(const std::vector<Term>& terms, const Fit& fit,
                                                    const std::vector<double>& theta,

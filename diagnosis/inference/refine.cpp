@@ -40,7 +40,7 @@ struct Descent {
 };
 
 /// A shorter step in place of the one that was refused; false: enough were.
-bool Shorten(const Search& search, Descent& d) {
+bool Shorten(const Search& search, const std::vector<Hypothesis>& causes, Descent& d) {
   // The damping counts in the priors' information, and a lightly damped mode may be known ten
   // thousand times better than its prior says: with the Jacobian of this point it grows until that
   // is held, too.
@@ -48,7 +48,7 @@ bool Shorten(const Search& search, Descent& d) {
   constexpr int kMostRefusedHere = 8;
   if (++d.refused > (d.current ? kMostRefusedHere : kMostRefused)) return false;
   d.damping.Refuse();
-  d.theta = search.Step(d.best.problem, {}, d.best.theta, d.damping.value());
+  d.theta = search.Step(d.best.problem, causes, d.best.theta, d.damping.value());
   return true;
 }
 
@@ -62,15 +62,16 @@ void ReturnToBest(Descent& d) {
 
 /// From theta, where the model ran, with a new Jacobian if it is to be current.
 void StepOn(const Search& search, const std::vector<Term>& terms,
-            const std::vector<Trajectory>& runs, Descent& d) {
+            const std::vector<Hypothesis>& causes, const std::vector<Trajectory>& runs,
+            Descent& d) {
   if (d.current) {
-    d.slopes =
-        std::make_shared<const Slopes>(search.rig(), runs, terms, d.theta, search.Nuisances());
+    d.slopes = std::make_shared<const Slopes>(search.rig(), runs, terms, d.theta,
+                                              search.NuisancesAnd(causes));
   }
   d.best.problem = search.About(d.slopes->Sum(runs, d.whitener), d.theta);
-  d.best.evidence = Refiner::EvidenceOfSet(d.best.problem, terms, {});
+  d.best.evidence = Refiner::EvidenceOfSet(d.best.problem, terms, causes);
   d.damping.Accept();
-  d.theta = search.Step(d.best.problem, {}, d.best.theta, d.damping.value());
+  d.theta = search.Step(d.best.problem, causes, d.best.theta, d.damping.value());
 }
 
 }  // namespace
@@ -238,15 +239,17 @@ double Refiner::Misfit(const std::vector<double>& theta, std::size_t whitening_o
   const auto runs = search_.Run(records_, gains_, theta);
   const Whitener whitener = MakeWhitener(runs, axes_, whitening_order);
   std::size_t values = 0;
-  static_cast<void>(SquaredSum(runs, axes_, whitener, &values));
+  // Not just their number: of innovations that swing, or belong to some rows alone, the filter leaves
+  // more than it claims.
+  const double squared_sum = SquaredSum(runs, axes_, whitener, &values);
   double log_power = 0.0;
   for (const auto& filter : whitener.filter) log_power -= 2.0 * std::log(filter.front());
   const double samples = static_cast<double>(values) / static_cast<double>(axes_);
-  return 0.5 * (log_power * samples + Penalty(theta, causes));
+  return 0.5 * (log_power * samples + squared_sum + Penalty(theta, causes));
 }
 
-Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order,
-                          int passes) const {
+Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order, int passes,
+                          const std::vector<Hypothesis>& causes) const {
   constexpr double kConverged = 1.0;  // [nat]
   constexpr double kFar = 100.0;      // [nat] a step that gains more has left its linearisation
   Descent d;
@@ -256,22 +259,22 @@ Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order
     const double gained =
         pass == 0
             ? std::numeric_limits<double>::infinity()
-            : d.best.cost - 0.5 * (SquaredSum(runs, axes_, d.whitener) + Penalty(d.theta, {}));
+            : d.best.cost - 0.5 * (SquaredSum(runs, axes_, d.whitener) + Penalty(d.theta, causes));
     if (pass > 0 && !(std::isfinite(gained) && gained > -kConverged)) {
-      if (Shorten(search_, d)) continue;
+      if (Shorten(search_, causes, d)) continue;
       if (d.current) break;
       ReturnToBest(d);
       runs = search_.Run(records_, gains_, d.theta);
     }
     d.whitener = search_.WhitenerOf(runs, whitening_order);
-    d.best.cost = 0.5 * (SquaredSum(runs, axes_, d.whitener) + Penalty(d.theta, {}));
+    d.best.cost = 0.5 * (SquaredSum(runs, axes_, d.whitener) + Penalty(d.theta, causes));
     if (!std::isfinite(d.best.cost)) break;
     d.best.theta = d.theta;
     d.best.ok = true;
     d.refused = 0;
     if (gained < kConverged && d.current) break;
     d.current = !d.slopes || gained > kFar || gained < kConverged;
-    StepOn(search_, terms_, runs, d);
+    StepOn(search_, terms_, causes, runs, d);
     ++pass;
   }
   return std::move(d.best);

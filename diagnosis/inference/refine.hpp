@@ -57,10 +57,10 @@ class Refiner {
   [[nodiscard]] Along StepAlong(const std::vector<Hypothesis>& causes,
                                 const std::vector<double>& theta, const View& view, double width,
                                 const std::function<void(double)>& become) const;
-  /// Nuisances alone, from far away. The whitening filter is re-estimated at every pass, since a
-  /// residual that is not calibrated yet is not noise and must not be weighted down as such.
-  [[nodiscard]] Refined Approach(std::vector<double> start, std::size_t whitening_order,
-                                 int passes) const;
+  /// Nuisances and causes, from far away. The whitening filter is re-estimated at every pass, since
+  /// a residual that is not calibrated yet is not noise and must not be weighted down as such.
+  [[nodiscard]] Refined Approach(std::vector<double> start, std::size_t whitening_order, int passes,
+                                 const std::vector<Hypothesis>& causes = {}) const;
   /// [nat] cost of nuisances and causes at theta, whitened by their own innovations; compares
   /// starts, and answers whose noise differs.
   [[nodiscard]] double Misfit(const std::vector<double>& theta, std::size_t whitening_order,

@@ -1,0 +1,28 @@
+#pragma once
+// A cause that calibration has swallowed: looked for from the rig file's numbers on.
+//
+// Why       a spring at the coupling moves modes as wrong shapes would. Calibration, which knows
+//           shapes alone, takes them six tolerances from the file, and no straight line leads back
+//           from there: the spring is screened as worth much, and fitted beside it.
+// When      calibration has left a number, a shape of a mode included, surely beyond
+//           moved_tolerances (moved_calibration.hpp), or a rotor that it can hardly follow.
+// Method    under a fast observer the cost is smooth, and no filter takes what a slow one leaves of
+//           a lightly damped mode for coloured noise. On a few rows every effect is screened about
+//           the file's numbers; each of the first few is fitted together with the nuisances from
+//           there on, what is built being held to a fifth of its tolerance at first (calibrate.hpp).
+// Taken     where innovations and all that calibration pays for its moves cost less with it than
+//           without, by suspected_nat: a model is never exact. The search then goes on with it, and
+//           drops it again where further causes explain its share, still under the fast observer:
+//           find_causes.cpp goes back to slower ones.
+// Cost      a screen and up to three calibrations of a part of the records.
+// Thread    blocks the caller, two threads inside.
+
+#include "diagnosis/inference/record_landscape.hpp"
+
+namespace levitas::diagnosis {
+
+/// True when it was taken; the landscape is linearised at found.theta either way.
+bool TakeSwallowedCause(RecordLandscape& landscape, const SelectionRules& rules,
+                        CauseSelection& found);
+
+}  // namespace levitas::diagnosis
