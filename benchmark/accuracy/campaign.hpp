@@ -2,31 +2,35 @@
 // Measured data of a rig with hidden parameters: only the signals that a technician would record.
 //
 // Records    standing with a test signal in one axis after the other, spinning with it, running up.
-//            Rows as the importer would give them (analysis/records/recorded_rows.hpp), in the
-//            bearing frame; the plant of the loop is in it too, and only a CSV file has the rig's
-//            wiring.
-// Loop       plant and axis law alone, one period at a time, from a levitated start that is not
-//            recorded.
-// Failure    `stable` is false if the rotor approached its touchdown bearings or was lost,
-//            oscillated at rest, or kept an axis at its current limit.
+//            Rows as a session of `amb run` would hold them and the importer would give them
+//            (diagnosis/records/load.hpp): bearing frame, frames counted from switching on, the
+//            current that was commanded. Only a CSV file has the rig's wiring.
+// Loop       the control cycle of `amb run` (simulated_rig.hpp), from off: lifted, brought to the
+//            speed by the drive at its greatest rate, half a second of rest, and recorded from then
+//            on. The test signal is the cycle's own injected current.
+// Run-up     as fast as its time asks, if need be by a drive that is faster than the file's.
+// Failure    `stable` is false if the supervisor trips or the rotor is not levitated by the
+//            recording's start, approaches its touchdown bearings, oscillates at rest, or keeps an
+//            axis at its current limit.
 // Thread     any; no shared state.
 
 #include <string>
 #include <vector>
 
 #include "benchmark/accuracy/unmodelled_disturbance.hpp"
-#include "controller/law/law_config.hpp"
+#include "controller/cycle/control_cycle.hpp"
 #include "diagnosis/model/model_run.hpp"
 #include "plant_sim/plant/plant.hpp"
 
 namespace levitas::accuracy {
 
-/// Frames that never arrive: the controller does nothing, the rig holds its currents, and the row
-/// is missing from the record or repeats the one before.
+/// Frames that never arrive while it is recorded: the cycle holds its currents, and its row has no
+/// frame and the count of the one before, as in a session; or, as in the log of a rig that writes
+/// one row a period, it is the row before with the next count.
 struct FrameLoss {
   double probability{};  ///< that a burst begins
   std::size_t burst{1};
-  bool missing{true};
+  bool missing{true};  ///< as in a session
   std::uint64_t seed{};
 };
 
@@ -48,11 +52,18 @@ struct Campaign {
   bool stable{true};
 };
 
-[[nodiscard]] Campaign Record(const plant::PlantParameters& truth, const law::LawConfig& law,
-                              const CampaignPlan& plan, Unmodelled outside, double outside_size,
-                              std::uint64_t outside_seed);
+/// `truth` is the rig that is simulated, `controller` what `amb run` makes of the nominal one's
+/// files; both have the same wiring and period.
+[[nodiscard]] Campaign Record(const plant::PlantParameters& truth,
+                              const cycle::CycleConfig& controller, const CampaignPlan& plan,
+                              Unmodelled outside, double outside_size, std::uint64_t outside_seed);
 
-/// `folder`/<name>.csv of the contract in docs/formats.md, readings and commands as on the wires.
+/// Whether this controller lifts this rig from its touchdown bearings, and holds it.
+[[nodiscard]] bool Lifts(const plant::PlantParameters& truth, const cycle::CycleConfig& controller,
+                         std::uint64_t seed);
+
+/// `folder`/<name>.csv of the contract in docs/formats.md, readings and commands as on the wires,
+/// times from the record's first row on. A cycle without a frame has no row.
 void WriteCsv(const std::vector<diagnosis::Record>& records, const RigNumbers& rig,
               const std::string& folder);
 

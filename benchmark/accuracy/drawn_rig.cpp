@@ -117,6 +117,7 @@ law::LawConfig TextbookLaw(const law::LawConfig& limits, const plant::PlantConfi
   axis.derivative_hz = 2500.0;
   law::LawConfig law = limits;
   law.state_space.reset();
+  law.schedule.clear();
   law.axes.assign(2 * plant.bearings.size(), axis);
   return law;
 }
@@ -231,7 +232,10 @@ TestRig DrawRig(const TestRig& shipped, Random& random) {
   SetForce(force_n, plant);
   const double mass_kg = MassOf(plant.rotor);
   if (which < kRotors.size()) {
-    drawn.laws = {TextbookLaw(shipped.laws.front(), plant, force_n, mass_kg)};
+    const configuration::ControllerFile& controller = shipped.controllers.front();
+    drawn.controllers = {{.name = "textbook",
+                          .law = TextbookLaw(controller.law, plant, force_n, mass_kg),
+                          .supervisor = controller.supervisor}};
   }
   const double weight = mass_kg / file_kg;
   configuration::Tolerances tolerances = drawn.rig.tolerances.value_or(configuration::Tolerances{});

@@ -4,7 +4,7 @@
 //
 // Seed       decides everything: deviations of the rig, effects, sizes, places, speed, controller,
 //            noise. An effect under which the rig does not stay levitated is drawn smaller.
-// Lost       frames of `dropped_samples` are missing from the record, or stand in it twice.
+// Lost       frames of `dropped_samples` never come to the controller (campaign.hpp, FrameLoss).
 // Thread     any; two inside.
 
 #include <cstdint>
@@ -16,14 +16,18 @@
 #include "benchmark/accuracy/hidden_effect.hpp"
 #include "benchmark/accuracy/rig_trials.hpp"
 #include "configuration/rig_file.hpp"
+#include "controller/cycle/control_cycle.hpp"
 
 namespace levitas::accuracy {
 
-/// The rig under trial: nominal description and the laws it may be levitated with.
+/// The rig under trial: nominal description and the controllers it may be levitated with.
 struct TestRig {
   configuration::RigFile rig;
-  std::vector<law::LawConfig> laws;
+  std::vector<configuration::ControllerFile> controllers;
   RigTrials trials;
+
+  /// What `amb run` makes of the rig file and this controller.
+  [[nodiscard]] cycle::CycleConfig Cycle(std::size_t controller) const;
 };
 
 struct TrialPlan {

@@ -9,16 +9,20 @@
 
 #include "analysis/records/recorded_rows.hpp"
 #include "common/problem.hpp"
-#include "session/exchange/recording.hpp"
 
 namespace levitas::diagnosis {
 
-Record LoadRecord(const std::string& path, const configuration::RigFile& rig) {
+Record RecordOf(session::Recording recording) {
   Record record;
-  record.name = std::filesystem::path(path).filename().string();
-  session::Recording recording = session::LoadRecording(path, rig);
+  record.name = std::filesystem::path(recording.name).filename().string();
   record.rows = analysis::RowsOf(recording);
   record.times_s = std::move(recording.time_s);
+  record.mean_speed_rad_per_s = analysis::MeanSpeed(record.rows);
+  return record;
+}
+
+Record LoadRecord(const std::string& path, const configuration::RigFile& rig) {
+  Record record = RecordOf(session::LoadRecording(path, rig));
   const bool flew = std::any_of(record.rows.begin(), record.rows.end(),
                                 [](const analysis::RecordedRow& row) { return row.levitated; });
   if (!flew) {
@@ -26,7 +30,6 @@ Record LoadRecord(const std::string& path, const configuration::RigFile& rig) {
         "{}: the rotor is never levitated in its {:.2f} s; a diagnosis needs {} s of free flight",
         path, static_cast<double>(record.rows.size()) * rig.numbers.period_s(), kShortest));
   }
-  record.mean_speed_rad_per_s = analysis::MeanSpeed(record.rows);
   return record;
 }
 

@@ -10,10 +10,14 @@
 
 #include "configuration/rig_file.hpp"
 #include "diagnosis/model/model_run.hpp"
+#include "session/exchange/recording.hpp"
 
 namespace levitas::diagnosis {
 
 inline constexpr double kShortest = 0.5;  ///< [s] of free flight: a model settles for 0.3
+
+/// Rows, times and mean speed of a recording; its name is that of the file, without folder.
+[[nodiscard]] Record RecordOf(session::Recording recording);
 
 [[nodiscard]] Record LoadRecord(const std::string& path, const configuration::RigFile& rig);
 

@@ -4,11 +4,12 @@
 #include <memory>
 #include <string>
 
-#include "benchmark/accuracy/identification/recorded_bench.hpp"
+#include "benchmark/accuracy/simulated_rig.hpp"
 #include "controller/cycle/control_cycle.hpp"
 #include "controller/scenario/prbs.hpp"
 #include "controller/scenario/signal.hpp"
 #include "plant_sim/plant/plant_model.hpp"
+#include "session/exchange/recording_builder.hpp"
 
 namespace levitas::accuracy {
 namespace {
@@ -45,24 +46,25 @@ session::Recording SimulateCampaign(const configuration::RigFile& rig, const Exc
 session::Recording SimulateCampaign(const configuration::RigFile& rig,
                                     const plant::PlantParameters& truth,
                                     const ExcitationPlan& plan) {
-  RecordedBench bench(CycleOf(rig),
-                      plant::Plant(std::make_shared<const plant::PlantModel>(truth), plan.seed));
-  bench.record.name = "simulated campaign";
+  SimulatedRig bench(CycleOf(rig),
+                     plant::Plant(std::make_shared<const plant::PlantModel>(truth), plan.seed));
+  session::RecordingBuilder rows("simulated campaign", rig.numbers);
+  const double period_s = rig.numbers.period_s();
   bench.Levitate();
   for (const double rpm : plan.speeds_rpm) {
     if (rpm > 0.0) bench.SpinAt(rpm);
     for (std::size_t axis = 0; axis < rig.numbers.axes(); ++axis) {
       const scenario::Excitation test = TestSignal(plan);
-      scenario::Signal signal(test, bench.record.period_s());
+      scenario::Signal signal(test, period_s);
       cycle::OperatorInput op;
-      for (long n = SamplesOf(plan, bench.record.period_s()); n > 0; --n) {
+      for (long n = SamplesOf(plan, period_s); n > 0; --n) {
         op.excitation_a[axis] = test.amplitude_a * signal.Next();
-        (void)bench.Step(op, true);
+        rows.Take(bench.Step(op));
       }
       bench.Run(0.3);
     }
   }
-  return bench.record;
+  return rows.Finish();
 }
 
 }  // namespace levitas::accuracy

@@ -3,9 +3,8 @@
 // controller, the nonlinear plant with noise, quantisation and gravity.
 
 #include <stdexcept>
-#include <utility>
 
-#include "benchmark/accuracy/identification/recorded_bench.hpp"
+#include "benchmark/accuracy/simulated_rig.hpp"
 #include "common/random.hpp"
 #include "common/rotational_speed.hpp"
 #include "common/two_pi.hpp"
@@ -14,6 +13,7 @@
 #include "design/drawn_rigs/rig_uncertainty.hpp"
 #include "plant_sim/plant/plant.hpp"
 #include "session/exchange/recording.hpp"
+#include "session/exchange/recording_builder.hpp"
 #include "tests/support/modes_within.hpp"
 
 namespace levitas::balancing {
@@ -50,21 +50,20 @@ struct RunUpPlan {
 /// The record of a run-up from standing to the top speed.
 inline session::Recording RecordRunUp(const configuration::RigFile& rig, const RunUpPlan& plan) {
   const configuration::ControllerFile& controller = ShippedController();
-  accuracy::RecordedBench bench({rig.numbers, controller.law, controller.supervisor},
-                                plant::Plant(rig.plant, plan.seed));
-  bench.record.name = "simulated run-up";
+  accuracy::SimulatedRig bench({rig.numbers, controller.law, controller.supervisor},
+                               plant::Plant(rig.plant, plan.seed));
+  session::RecordingBuilder record("simulated run-up", rig.numbers);
   bench.Levitate(0.3);
-  (void)bench.Step({OperatorCommand::kSpin,
-                    RpmToRadPerS(plan.top_rpm),
-                    RpmToRadPerS(plan.acceleration_rpm_per_s),
-                    {}});
+  bench.Step({OperatorCommand::kSpin,
+              RpmToRadPerS(plan.top_rpm),
+              RpmToRadPerS(plan.acceleration_rpm_per_s),
+              {}});
   const double time_s = plan.top_rpm / plan.acceleration_rpm_per_s + 0.5;
-  const auto rows = static_cast<long>(time_s / bench.record.period_s());
-  Mode mode = Mode::kOff;
-  for (long n = 0; n < rows; ++n) mode = bench.Step({}, true);
-  if (mode != Mode::kSpinning) throw std::runtime_error("the rig does not spin");
-  bench.record.bias_current_a.assign(bench.record.cycle.size(), rig.numbers.bias_current_a);
-  return std::move(bench.record);
+  for (auto rows = static_cast<long>(time_s / rig.numbers.period_s()); rows > 0; --rows) {
+    record.Take(bench.Step());
+  }
+  if (bench.record().out.mode != Mode::kSpinning) throw std::runtime_error("the rig does not spin");
+  return record.Finish();
 }
 
 /// A rig as it may be behind flexible_rotor.yaml: ki and ks of every axis within 10 %, frequencies

@@ -33,7 +33,7 @@ std::vector<dg::Record> RecordsOf(const std::vector<effect::EffectConfig>& hidde
   CampaignPlan plan = bench.trials.campaign;
   plan.bits_per_axis = 750;
   plan.runup_s = 1.0;
-  Campaign campaign = Record(truth, bench.laws.front(), plan, Unmodelled::kNothing, 0.0, 1);
+  Campaign campaign = Record(truth, bench.Cycle(0), plan, Unmodelled::kNothing, 0.0, 1);
   EXPECT_TRUE(campaign.stable);
   return std::move(campaign.records);
 }

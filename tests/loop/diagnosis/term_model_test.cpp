@@ -37,7 +37,7 @@ std::vector<Record> Recorded(const accuracy::TestRig& bench,
   plan.spinning_rpm = 3000.0;
   plan.bits_per_axis = 1000;
   plan.runup_s = 1.0;
-  return accuracy::Record(truth, bench.laws.front(), plan, accuracy::Unmodelled::kNothing, 0.0, 1)
+  return accuracy::Record(truth, bench.Cycle(0), plan, accuracy::Unmodelled::kNothing, 0.0, 1)
       .records;
 }
 
