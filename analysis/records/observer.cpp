@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "analysis/reading_noise.hpp"
@@ -244,8 +245,14 @@ Observer::Observer(std::shared_ptr<const plant::PlantModel> model,
 }
 
 Observer::Observer(const plant::PlantConfig& plant, std::shared_ptr<const ObserverGain> gain)
-    : Observer(std::make_shared<const plant::PlantModel>(plant::InBearingFrame(plant)),
-               std::move(gain)) {}
+    : Observer(
+          std::make_shared<const plant::PlantModel>(plant::InBearingFrame(WithSpeedImposed(plant))),
+          std::move(gain)) {}
+
+plant::PlantConfig WithSpeedImposed(plant::PlantConfig plant) {
+  plant.drive.max_acceleration_rad_per_s2 = std::numeric_limits<double>::max();
+  return plant;
+}
 
 void Observer::Restart(const AxisArray& position_m) {
   AxisArray place_m = position_m;
@@ -276,11 +283,15 @@ AxisArray Observer::Step(const RecordedSample& sample, const AxisArray& added_m)
   Eigen::Map<Eigen::VectorXd> x(state.data(), gain_->state.rows());
   x.noalias() += gain_->state * innovation_m_;
   force_n_.noalias() += gain_->force_n_per_m * innovation_m_;
-  // The recorded rotation is imposed sample by sample: a drive that asks for the speed it has.
+  // The recorded rotation is imposed sample by sample: a drive that asks for the speed that it has,
+  // or is on its way from it.
   plant_.SetSpeed(sample.speed_rad_per_s, sample.angle_rad);
   plant::PlantCommand command = sample.command;
   command.drive_enabled = true;
-  command.speed_set_point_rad_per_s = sample.speed_rad_per_s;
+  constexpr double kAhead = 1.0;  // [s]
+  command.speed_set_point_rad_per_s =
+      sample.speed_rad_per_s + kAhead * sample.acceleration_rad_per_s2;
+  command.acceleration_limit_rad_per_s2 = std::abs(sample.acceleration_rad_per_s2);
   plant_.Advance(command);
   x.noalias() += gain_->force_step * force_n_;
   return innovation_m;

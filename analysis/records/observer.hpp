@@ -72,7 +72,13 @@ struct RecordedSample {
   plant::PlantCommand command;
   double speed_rad_per_s{};  ///< [rad/s] mean speed until the next sample
   double angle_rad{};        ///< [rad] rotor angle at this sample
+  /// Of the shaft, as the speeds around say (recorded_rows.hpp): an unbalance that is turned faster
+  /// pushes across itself, too.
+  double acceleration_rad_per_s2{};
 };
+
+/// The plant of an observer: its drive follows the recorded speed, whatever the rig's own could do.
+[[nodiscard]] plant::PlantConfig WithSpeedImposed(plant::PlantConfig plant);
 
 class Observer {
  public:

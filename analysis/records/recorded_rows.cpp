@@ -1,5 +1,6 @@
 #include "analysis/records/recorded_rows.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace levitas::analysis {
@@ -29,12 +30,36 @@ RecordedRow RowOf(const session::Recording& recording, std::size_t row) {
 
 }  // namespace
 
+void FindAccelerations(double period_s, std::vector<RecordedRow>& rows) {
+  // Slopes of the speed over so long to either side: speeds of a tachometer scatter from sample to
+  // sample.
+  constexpr double kHalf = 0.025;  // [s]
+  constexpr std::uint64_t kMostLost = 20;
+  const auto half = static_cast<std::size_t>(std::llround(kHalf / period_s));
+  for (std::size_t first = 0; first < rows.size();) {
+    std::size_t end = first + 1;
+    while (end < rows.size() && rows[end].cycle > rows[end - 1].cycle &&
+           rows[end].cycle - rows[end - 1].cycle <= kMostLost)
+      ++end;
+    for (std::size_t i = first; i < end; ++i) {
+      const RecordedRow& from = rows[i - std::min(half, i - first)];
+      const RecordedRow& to = rows[std::min(i + half, end - 1)];
+      if (to.cycle == from.cycle) continue;
+      rows[i].sample.acceleration_rad_per_s2 =
+          (to.sample.speed_rad_per_s - from.sample.speed_rad_per_s) /
+          (static_cast<double>(to.cycle - from.cycle) * period_s);
+    }
+    first = end;
+  }
+}
+
 std::vector<RecordedRow> RowsOf(const session::Recording& recording) {
   std::vector<RecordedRow> rows;
   rows.reserve(recording.rows());
   for (std::size_t row = 0; row < recording.rows(); ++row) {
     rows.push_back(RowOf(recording, row));
   }
+  FindAccelerations(recording.period_s(), rows);
   return rows;
 }
 

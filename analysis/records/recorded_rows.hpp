@@ -16,6 +16,9 @@ namespace levitas::analysis {
 
 [[nodiscard]] std::vector<RecordedRow> RowsOf(const session::Recording& recording);
 
+/// Sets RecordedSample::acceleration_rad_per_s2 of rows that follow one another.
+void FindAccelerations(double period_s, std::vector<RecordedRow>& rows);
+
 /// Mean over the levitated rows; 0 when there are none.
 [[nodiscard]] double MeanSpeed(const std::vector<RecordedRow>& rows);
 

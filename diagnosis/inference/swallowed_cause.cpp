@@ -124,11 +124,9 @@ std::pair<std::vector<Hypothesis>, Refined> CheapestBelow(double most, const Fit
     Refined fit = fits.With(cause);
     if (!fit.ok) continue;
     const double cost = fits.Cost(fit, cause);
-            std::string(effect::At(candidate.effect).name).c_str(), candidate.place.c_str(), cost,
-            most);
-            if (!(cost < most)) continue;
-            most = cost;
-            best = {cause, std::move(fit)};
+    if (!(cost < most)) continue;
+    most = cost;
+    best = {cause, std::move(fit)};
   }
   return best;
 }

@@ -71,6 +71,7 @@ Record SimulatedRecord(const configuration::RigFile& rig,
     if (row.levitated) record.rows.push_back(row);
     plant.Advance(plant::CommandOf(now.out.current));
   }
+  analysis::FindAccelerations(period_s, record.rows);
   record.mean_speed_rad_per_s = analysis::MeanSpeed(record.rows);
   return record;
 }

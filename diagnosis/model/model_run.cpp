@@ -160,6 +160,7 @@ class Runner {
       moment.read_v[i] = static_cast<float>(state[at_.v_x + i]);
     }
     moment.Turn(row.sample.angle_rad, row.sample.speed_rad_per_s, rig_.period_s);
+    moment.acceleration_rad_per_s2 = static_cast<float>(row.sample.acceleration_rad_per_s2);
     for (std::size_t i = 0; i < rig_.axes; ++i) {
       const double commanded_a = row.sample.command.control_current_a[i];
       const double limit_a = rig_.bias_a(i);

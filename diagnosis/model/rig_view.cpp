@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "analysis/reading_noise.hpp"
+#include "analysis/records/observer.hpp"
 #include "common/problem.hpp"
 #include "diagnosis/model/sample_point.hpp"
 #include "plant_sim/plant/bearing_frame.hpp"
@@ -38,7 +39,7 @@ bool ByChance(const effect::EffectConfig& entry) {
 
 plant::PlantConfig Foretold(plant::PlantConfig plant) {
   std::erase_if(plant.effects, ByChance);
-  return plant;
+  return analysis::WithSpeedImposed(plant);
 }
 
 }  // namespace

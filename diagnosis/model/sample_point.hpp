@@ -40,13 +40,14 @@ struct SamplePoint {
   double cos_angle{}, sin_angle{};          ///< at the sample
   double cos_mid_angle{}, sin_mid_angle{};  ///< in the middle of the period
   float speed_rad_per_s{};
-  bool counts{};              ///< settled, arrived, not validation data
-  bool held{};                ///< would count but is validation data
-  bool restarted{};           ///< the first sample after a gap
-  AxisFloats innovation_m{};  ///< measured minus predicted, bearing frame
-  AxisFloats measured_m{};    ///< bearing frame
-  AxisFloats reading_m{};     ///< predicted, before the correction, without added readings
-  ModalFloats read_q{};       ///< modal coordinates behind `reading_m`
+  float acceleration_rad_per_s2{};  ///< of the shaft
+  bool counts{};                    ///< settled, arrived, not validation data
+  bool held{};                      ///< would count but is validation data
+  bool restarted{};                 ///< the first sample after a gap
+  AxisFloats innovation_m{};        ///< measured minus predicted, bearing frame
+  AxisFloats measured_m{};          ///< bearing frame
+  AxisFloats reading_m{};           ///< predicted, before the correction, without added readings
+  ModalFloats read_q{};             ///< modal coordinates behind `reading_m`
   ModalFloats read_v{};
   ModalFloats q{}, v{};       ///< mean
   AxisFloats coil_start_a{};  ///< control current

@@ -22,10 +22,14 @@ void AddUnbalance(const RigView& rig, const Tolerances& t, std::vector<Term>& te
           [=, modes = rig.modes](const SamplePoint& m, double theta, Contribution& add) {
             const double speed = static_cast<double>(m.speed_rad_per_s);
             if (speed == 0.0) return;
-            // The sine part is a quarter turn ahead.
-            const double force = theta * speed * speed;
-            const double cosine = force * (part == 0 ? m.cos_mid_angle : -m.sin_mid_angle);
-            const double sine = force * (part == 0 ? m.sin_mid_angle : m.cos_mid_angle);
+            // The sine part is a quarter turn ahead; a shaft that is turned faster leaves the mass
+            // behind: theta (W^2 - j W') e^(j angle).
+            const double outward = theta * speed * speed;
+            const double behind = theta * static_cast<double>(m.acceleration_rad_per_s2);
+            const double c = part == 0 ? m.cos_mid_angle : -m.sin_mid_angle;
+            const double s = part == 0 ? m.sin_mid_angle : m.cos_mid_angle;
+            const double cosine = outward * c + behind * s;
+            const double sine = outward * s - behind * c;
             for (std::size_t i = 0; i < modes; ++i) {
               add.Modal(i, shape[i] * cosine);
               add.Modal(modes + i, shape[i] * sine);
