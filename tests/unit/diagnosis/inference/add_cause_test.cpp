@@ -1,0 +1,140 @@
+// Adding and dropping causes where a fit fails, is not confirmed, or is not worth its time.
+
+#include <gtest/gtest.h>
+
+#include <tuple>
+#include <utility>
+
+#include "diagnosis/inference/selection_steps.hpp"
+#include "tests/unit/diagnosis/toy_effects.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+using effect::Id;
+using Effects = ToyLandscape::Effects;
+
+bool AddThoroughly(ToyLandscape& toy, CauseSelection& found) {
+  return AddCause(toy, ThoroughRules(), 0.2, found);
+}
+
+// Taken at 40 nat, as the failed fit has it, the effect of -3 nat would lose.
+TEST(AddCauseToALostFit, ComparesWithTheLinearisedEvidence) {
+  ToyLandscape toy({10.0});
+  const Hypothesis h = toy.Add(ToyEffect(Id::kUnbalance), {1.0});
+  toy.refused.insert(Effects{});
+  toy.fitted[Effects{}] = 40.0;
+  CauseSelection found = toy.Found({});
+  ASSERT_TRUE(AddThoroughly(toy, found));
+  EXPECT_EQ(ToyLandscape::EffectsOf(found.causes), Effects{h.effect});
+}
+
+// 47 nat on the screen, nothing in its fit: it may need more passes. Its shape does, too.
+TEST(AddUnconfirmedCause, FindsItsShapeWhereAFitFollowsAndTheSearchIsThorough) {
+  for (const auto& [follows, first_only, place] :
+       {std::tuple{true, false, "at its shape"}, std::tuple{false, false, "here"},
+        std::tuple{true, true, "here"}}) {
+    ToyLandscape toy({10.0});
+    const Hypothesis family = toy.Add(ToyEffect(Id::kAmplifierSlew), {1.0});
+    toy.shape[family.effect] = 20.0;
+    toy.fitted[{family.effect}] = -50.0;
+    if (!follows) toy.refused.insert({family.effect});
+    SelectionRules rules = ThoroughRules();
+    rules.effort.first_cause_only = first_only;
+    CauseSelection found = toy.Found({});
+    ASSERT_TRUE(AddCause(toy, rules, 0.2, found));
+    EXPECT_EQ(found.causes.front().place, place) << follows << first_only;
+    EXPECT_NEAR(found.theta.front(), 10.0, 1e-9);
+  }
+}
+
+// The screen errs by a share of the gain: of 197 nat, what has less than 0.3 * 197 = 59.1 is not
+// the better one. 12^2 / 2 - 3 = 69, 10^2 / 2 - 3 = 47.
+TEST(AddCause, FitsOnlyWhatTheScreenMayHaveMisjudged) {
+  for (const auto& [size, fitted] : {std::pair{12.0, true}, std::pair{10.0, false}}) {
+    ToyLandscape toy({20.0, size});
+    toy.Add(ToyEffect(Id::kUnbalance), {1.0, 0.0});
+    const Hypothesis second = toy.Add(ToyEffect(Id::kShaftBow), {0.0, 1.0});
+    CauseSelection found = toy.Found({});
+    ASSERT_TRUE(AddThoroughly(toy, found));
+    EXPECT_EQ(WasFitted(toy, {second.effect}), fitted) << size;
+  }
+}
+
+// A fit worth 20 nat is there for whoever begins near the mode.
+struct Elsewhere {
+  Elsewhere() {
+    toy.from[0.03] = -30.0;
+    toy.probes.push_back({0, 0, 0.03});
+  }
+  ToyLandscape toy{{10.0, 0.0}};
+  Hypothesis mode = toy.Add(ToyEffect(Id::kModalFrequency), {0.0, 1.0});
+  CauseSelection found = toy.Found({});
+};
+
+TEST(AddProbedMode, IsNotLookedForInAFirstAnswer) {
+  for (const bool first_only : {true, false}) {
+    Elsewhere e;
+    SelectionRules rules = ThoroughRules();
+    rules.effort.first_cause_only = first_only;
+    EXPECT_EQ(AddCause(e.toy, rules, 0.2, e.found), !first_only);
+  }
+}
+
+TEST(AddProbedMode, IsPassedOverWhereNoFitFollows) {
+  Elsewhere e;
+  e.toy.refused.insert({e.mode.effect});
+  EXPECT_FALSE(AddThoroughly(e.toy, e.found));
+  EXPECT_TRUE(e.found.causes.empty());
+  EXPECT_EQ(e.found.refitted.size(), 1U) << "by the screen";
+}
+
+// 20 nat beside a first cause of 100: the screen's 47 are more.
+TEST(AddProbedMode, GivesWayToWhatTheScreenFoundBetter) {
+  Elsewhere e;
+  const Hypothesis better = e.toy.Add(ToyEffect(Id::kUnbalance), {1.0, 0.0});
+  e.found = e.toy.Found({});
+  ASSERT_TRUE(AddThoroughly(e.toy, e.found));
+  EXPECT_EQ(ToyLandscape::EffectsOf(e.found.causes), Effects{better.effect});
+}
+
+TEST(AddCauseToTwo, DropsTheSuperfluousOneAndKeepsTheOther) {
+  ToyLandscape toy({10.0, 0.0, 9.0});
+  const Hypothesis imitation = toy.Add(ToyEffect(Id::kUnbalance), {1.0, 1.0, 0.0});
+  const Hypothesis other = toy.Add(ToyEffect(Id::kShaftBow), {0.0, 0.0, 1.0});
+  const Hypothesis true_cause = toy.Add(ToyEffect(Id::kMisalignment), {1.0, 0.0, 0.0});
+  CauseSelection found = toy.Found({imitation, other});
+  ASSERT_TRUE(AddThoroughly(toy, found));
+  EXPECT_EQ(ToyLandscape::EffectsOf(found.causes), (Effects{other.effect, true_cause.effect}));
+  EXPECT_NEAR(found.theta[imitation.terms.front()], 0.0, 1e-9);
+  EXPECT_NEAR(found.theta[other.terms.front()], 9.0, 1e-9);
+}
+
+// -1 nat for the second: 2^2 / 2 - 3.
+TEST(DropUnprovenOfThree, DropsTheOneInTheMiddleAlone) {
+  ToyLandscape toy({10.0, 2.0, 9.0});
+  const Hypothesis x = toy.Add(ToyEffect(Id::kUnbalance), {1.0, 0.0, 0.0});
+  const Hypothesis y = toy.Add(ToyEffect(Id::kShaftBow), {0.0, 1.0, 0.0});
+  const Hypothesis z = toy.Add(ToyEffect(Id::kMisalignment), {0.0, 0.0, 1.0});
+  CauseSelection found = toy.Found({x, y, z});
+  DropUnproven(toy, ThoroughRules(), found);
+  EXPECT_EQ(ToyLandscape::EffectsOf(found.causes), (Effects{x.effect, z.effect}));
+  EXPECT_NEAR(found.theta[x.terms.front()], 10.0, 1e-9);
+  EXPECT_NEAR(found.theta[y.terms.front()], 0.0, 1e-9);
+}
+
+// Of two that are the same each is worth nothing beside the other: one of them must stay.
+TEST(DropUnprovenOfThree, LeavesOneOfTwoThatStandForEachOther) {
+  ToyLandscape toy({10.0, 9.0});
+  const Hypothesis x = toy.Add(ToyEffect(Id::kUnbalance), {1.0, 0.0});
+  const Hypothesis twin = toy.Add(ToyEffect(Id::kShaftBow), {1.0, 0.0});
+  const Hypothesis y = toy.Add(ToyEffect(Id::kMisalignment), {0.0, 1.0});
+  CauseSelection found = toy.Found({x, y, twin});
+  DropUnproven(toy, ThoroughRules(), found);
+  ASSERT_EQ(found.causes.size(), 2U);
+  EXPECT_TRUE(ToyLandscape::EffectsOf(found.causes).contains(y.effect));
+  EXPECT_NEAR(found.theta[x.terms.front()] + found.theta[twin.terms.front()], 10.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace levitas::diagnosis
