@@ -53,7 +53,7 @@ double CurrentLimit(const cycle::CycleConfig& config) {
 }
 
 /// What disturbs without being modelled, and frames that are lost.
-class Trouble final : public Line {
+class Trouble final : public RigLine {
  public:
   Trouble(const RigNumbers& rig, Disturbance disturbance, const FrameLoss& loss)
       : probes_(rig), period_s_(rig.period_s()), disturbance_(disturbance), loss_(loss) {}

@@ -9,7 +9,7 @@
 
 namespace levitas::accuracy {
 
-SimulatedRig::SimulatedRig(const cycle::CycleConfig& config, plant::Plant plant, Line* line)
+SimulatedRig::SimulatedRig(const cycle::CycleConfig& config, plant::Plant plant, RigLine* line)
     : period_s_(config.rig.period_s()), plant_(std::move(plant)), cycle_(config), line_(line) {
   plant_.RestInTouchdown();
 }

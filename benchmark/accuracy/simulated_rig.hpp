@@ -17,12 +17,12 @@
 namespace levitas::accuracy {
 
 /// The line between rig and controller. What it does is in no record, save by its consequences.
-class Line {
+class RigLine {
  public:
-  Line() = default;
-  Line(const Line&) = delete;
-  Line& operator=(const Line&) = delete;
-  virtual ~Line() = default;
+  RigLine() = default;
+  RigLine(const RigLine&) = delete;
+  RigLine& operator=(const RigLine&) = delete;
+  virtual ~RigLine() = default;
   /// A frame on its way to the controller, which gets it as it is left here. False: it is lost,
   /// and the cycle has the last one that arrived, marked as not present.
   virtual bool Deliver(SensorFrame& frame) = 0;
@@ -33,7 +33,7 @@ class Line {
 class SimulatedRig {
  public:
   /// `line` has to outlive it; none: all arrives as it was sent.
-  SimulatedRig(const cycle::CycleConfig& config, plant::Plant plant, Line* line = nullptr);
+  SimulatedRig(const cycle::CycleConfig& config, plant::Plant plant, RigLine* line = nullptr);
 
   /// One period. The reference holds until the next one.
   const cycle::CycleRecord& Step(const cycle::OperatorInput& op = {});
@@ -58,7 +58,7 @@ class SimulatedRig {
   double period_s_;
   plant::Plant plant_;
   cycle::ControlCycle cycle_;
-  Line* line_;
+  RigLine* line_;
   std::uint64_t count_{};
   cycle::CycleRecord record_;
 };

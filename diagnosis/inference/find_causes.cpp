@@ -4,7 +4,7 @@
 
 #include "diagnosis/inference/loud_fault.hpp"
 #include "diagnosis/inference/selection_steps.hpp"
-#include "diagnosis/inference/swallowed_cause.hpp"
+#include "diagnosis/inference/swallowed_causes.hpp"
 #include "diagnosis/inference/whiten_anew.hpp"
 #include "diagnosis/model/divergence.hpp"
 
@@ -71,8 +71,8 @@ void FindCauses(RecordLandscape& landscape, const SelectionRules& rules, CauseSe
       landscape.LineariseAt(found.theta);
     }
     if (found.causes.empty()) found.calibrated_runs = landscape.view().runs;
-    const bool swallowed =
-        stage == 0 && !rules.effort.first_cause_only && TakeSwallowedCause(landscape, rules, found);
+    const bool swallowed = stage == 0 && !rules.effort.first_cause_only &&
+                           TakeSwallowedCauses(landscape, rules, found);
     if (swallowed) found.calibrated_runs = CalibratedRuns(landscape, found);
     bool added =
         (found.causes.size() < rules.most_causes && AddCause(landscape, rules, share, found)) ||

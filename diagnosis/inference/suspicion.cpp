@@ -52,7 +52,7 @@ bool SuspectLeader(const RecordLandscape& landscape, const Judging& judging,
   SortByScore(found.candidates);
   if (!fit.ok || found.candidates.front().hypothesis != hypothesis) return false;
   const double probability = ProbabilityOfLeader(found.candidates, tie_nat);
-  if (!fit.ok || !(probability > kLikely)) return false;
+  if (!(probability > kLikely)) return false;
   Suspect(found, landscape.hypotheses()[hypothesis], std::move(fit), Doubt::kWeakEvidence,
           probability);
   return true;

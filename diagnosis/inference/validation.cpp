@@ -151,7 +151,9 @@ void JudgeOnValidation(RecordLandscape& landscape, const std::vector<Record>& va
     worth = judge.Gain(WithoutCauses(landscape, found, judge),
                        With(landscape, judge, found.causes, found.theta));
   }
-  if (worth.value >= -deviations * worth.deviation) return;
+  // What the data cannot show is worth nothing but the rounding of their sums, and does not scatter.
+  constexpr double kNothing = 1e-3;
+  if (worth.value >= -std::max(kNothing, deviations * worth.deviation)) return;
   found.doubt = Doubt::kValidationHarm;
   // A model that diverges on the validation data is refuted, too.
   found.probability = std::isfinite(worth.value)

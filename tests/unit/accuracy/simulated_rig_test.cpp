@@ -18,7 +18,7 @@ const TestRig& ShippedBench() {
 plant::Plant ShippedPlant() { return {ShippedBench().rig.plant, 1}; }
 
 /// Loses every frame once it is cut.
-class CutLine final : public Line {
+class CutLine final : public RigLine {
  public:
   bool Deliver(SensorFrame& /*frame*/) override { return !cut; }
   void Pass(const SensorFrame& /*frame*/, plant::PlantCommand& command) override {

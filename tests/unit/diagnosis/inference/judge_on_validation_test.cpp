@@ -1,4 +1,4 @@
-// Causes at rest against validation data that show them or deny them.
+// Causes at rest against validation data that show them, deny them, or cannot tell.
 
 #include <gtest/gtest.h>
 
@@ -69,6 +69,19 @@ TEST(JudgeOnValidation, LeadsWithTheContenderThatForetellsTheDataBetter) {
   EXPECT_EQ(of.found.causes.front().place, kHumPlace);
   EXPECT_EQ(of.found.candidates.front().place, kHumPlace);
   EXPECT_EQ(of.found.theta, hum.fit.theta);
+}
+
+// At rest an unbalance moves nothing: worth nothing, and no reason to doubt it.
+TEST(JudgeOnValidation, DoesNotDoubtWhatTheDataCannotShow) {
+  OffsetFound of;
+  of.found.causes = {of.rest.Of(Id::kUnbalance, "z 129.9 mm")};
+  of.found.candidates = {of.rest.CandidateOf(Id::kUnbalance, "z 129.9 mm", 5.0)};
+  of.Judge({RestRecord(0.0, kFound)});
+  EXPECT_EQ(of.found.doubt, Doubt::kNothing);
+  EXPECT_EQ(of.found.causes.size(), 1U);
+  ASSERT_TRUE(of.found.candidates.front().validation_nat.has_value());
+  // Less than a thousandth of what decides.
+  EXPECT_NEAR(*of.found.candidates.front().validation_nat, 0.0, 0.005) << of.found.probability;
 }
 
 }  // namespace

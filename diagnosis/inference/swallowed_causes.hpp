@@ -1,5 +1,5 @@
 #pragma once
-// A cause that calibration has swallowed: looked for from the rig file's numbers on.
+// Causes that calibration has swallowed: looked for from the rig file's numbers on.
 //
 // Why       a spring at the coupling moves modes as wrong shapes would. Calibration, which knows
 //           shapes alone, takes them six tolerances from the file, and no straight line leads back
@@ -10,6 +10,7 @@
 //           a lightly damped mode for coloured noise. On a few rows every effect is screened about
 //           the file's numbers; each of the first few is fitted together with the nuisances from
 //           there on, what is built being held to a fifth of its tolerance at first (calibrate.hpp).
+//           While the best of them still leaves numbers far off, a further one is looked for.
 // Taken     where innovations and all that calibration pays for its moves cost less with it than
 //           without, by suspected_nat: a model is never exact. The search then goes on with it, and
 //           drops it again where further causes explain its share, still under the fast observer:
@@ -21,8 +22,8 @@
 
 namespace levitas::diagnosis {
 
-/// True when it was taken; the landscape is linearised at found.theta either way.
-bool TakeSwallowedCause(RecordLandscape& landscape, const SelectionRules& rules,
-                        CauseSelection& found);
+/// True when any was taken; the landscape is linearised at found.theta either way.
+bool TakeSwallowedCauses(RecordLandscape& landscape, const SelectionRules& rules,
+                         CauseSelection& found);
 
 }  // namespace levitas::diagnosis

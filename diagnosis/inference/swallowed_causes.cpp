@@ -1,0 +1,193 @@
+#include "diagnosis/inference/swallowed_causes.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "diagnosis/inference/calibrate.hpp"
+#include "diagnosis/inference/moved_calibration.hpp"
+#include "diagnosis/inference/ranking.hpp"
+#include "plant_sim/effect/catalogue.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+constexpr std::size_t kMostSwallowed = 3;
+constexpr std::size_t kFewRows = 18'000;
+constexpr std::size_t kJointRows = 30'000;
+constexpr int kHeldPasses = 12;
+constexpr int kFreePasses = 12;
+
+/// Causes, theta held to the file, and the fit that is free within the tolerances.
+struct JointFit {
+  std::vector<Hypothesis> causes;
+  std::vector<double> held;
+  Refined free;
+  double cost{std::numeric_limits<double>::infinity()};  ///< [nat]
+};
+
+/// Whether a fit left a number, shapes of modes included, surely beyond the tolerances.
+bool WentFar(const std::vector<Term>& terms, const LinearProblem& problem,
+             const std::vector<double>& theta, const std::vector<Hypothesis>& causes,
+             double tolerances) {
+  const Fit fit = Evidence(problem, terms, causes).Solve();
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    if (terms[i].nuisance() && !Moves(causes, i) &&
+        SurelyAway(terms[i], fit, theta, i) > tolerances)
+      return true;
+  }
+  return false;
+}
+
+/// Fits under the fast observer: on few rows and on more, held to the file and free.
+class FileFits {
+ public:
+  explicit FileFits(const RecordLandscape& landscape)
+      : landscape_(landscape),
+        held_(HeldToFile(landscape.terms())),
+        cautious_(landscape.rig(), held_, std::nullopt, landscape.search().model_error_share()),
+        few_(Spans(landscape.records(), kFewRows, landscape.rig().period_s)),
+        part_(Spans(landscape.records(), kJointRows, landscape.rig().period_s)),
+        fast_few_(cautious_.DesignGains(few_, kFast)),
+        fast_(cautious_.DesignGains(part_, kFast)),
+        coarse_(cautious_, held_, few_, fast_few_, landscape.rig().axes),
+        fine_(cautious_, held_, part_, fast_, landscape.rig().axes),
+        free_(landscape.search(), landscape.terms(), part_, fast_, landscape.rig().axes) {}
+
+  [[nodiscard]] std::vector<double> FileNumbers() const { return cautious_.HealthyParameters(); }
+
+  [[nodiscard]] JointFit Free(const std::vector<double>& held,
+                              const std::vector<Hypothesis>& causes) const {
+    JointFit made{causes, held, free_.Approach(held, kWhiteningOrder, kFreePasses, causes)};
+    if (made.free.ok) made.cost = free_.Misfit(made.free.theta, kWhiteningOrder, causes);
+    return made;
+  }
+
+  [[nodiscard]] View LineariseAt(const std::vector<double>& held) const {
+    return cautious_.Linearise(few_, fast_few_, held, kWhiteningOrder, cautious_.Everything());
+  }
+
+  /// Every effect at its best place on top of these.
+  [[nodiscard]] std::vector<Candidate> Screened(const View& view, const JointFit& base) const {
+    return Screen(Evidence(view.problem, held_, base.causes), landscape_.hypotheses());
+  }
+
+  /// With a cause more; of infinite cost where the model cannot follow.
+  [[nodiscard]] JointFit With(const View& view, const JointFit& base,
+                              const Hypothesis& cause) const {
+    std::vector<Hypothesis> causes = base.causes;
+    causes.push_back(cause);
+    const Refined nearest = Nearest(view, base, causes);
+    if (!nearest.ok) return {};
+    const Refined held = fine_.Approach(nearest.theta, kWhiteningOrder, kHeldPasses, causes);
+    return Free(held.ok ? held.theta : nearest.theta, causes);
+  }
+
+ private:
+  /// From the best of four sizes of the last cause: none, as the screen sees it, and two and four
+  /// times as large, since a straight line sees too little of what moves a lightly damped mode by
+  /// more than its width. Where none and the largest end alike, the others would, too.
+  [[nodiscard]] Refined Nearest(const View& view, const JointFit& base,
+                                const std::vector<Hypothesis>& causes) const {
+    constexpr double kAlike = 1.0;  // [nat]
+    const std::vector<double> seen = cautious_.Solve(view.problem, causes);
+    Refined nearest;
+    double least = std::numeric_limits<double>::infinity();
+    double first = least;
+    for (const double times : {0.0, 4.0, 1.0, 2.0}) {
+      Refined fit = coarse_.Approach(Start(base.held, seen, causes.back(), times), kWhiteningOrder,
+                                     kHeldPasses, causes);
+      const double misfit =
+          fit.ok ? coarse_.Misfit(fit.theta, kWhiteningOrder, causes) : 2.0 * std::abs(least);
+      if (fit.ok && misfit < least) {
+        least = misfit;
+        nearest = std::move(fit);
+      }
+      if (times == 0.0) first = misfit;
+      if (times == 4.0 && std::abs(misfit - first) < kAlike) break;
+    }
+    return nearest;
+  }
+
+  static std::vector<double> Start(std::vector<double> theta, const std::vector<double>& seen,
+                                   const Hypothesis& cause, double times) {
+    for (const std::size_t i : cause.terms) theta[i] += times * (seen[i] - theta[i]);
+    return theta;
+  }
+
+  const RecordLandscape& landscape_;
+  std::vector<Term> held_;
+  Search cautious_;
+  std::vector<Record> few_, part_;
+  Gains fast_few_, fast_;
+  Refiner coarse_, fine_, free_;
+};
+
+/// The best cause more, where it lowers the cost by `margin`.
+bool AddOne(const FileFits& fits, const RecordLandscape& landscape, const Judging& judging,
+            JointFit& found) {
+  const View view = fits.LineariseAt(found.held);
+  const std::vector<Candidate> screened = fits.Screened(view, found);
+  JointFit best;
+  for (std::size_t i = 0; i < std::min(screened.size(), kMostSwallowed); ++i) {
+    if (!(screened[i].score > judging.decisive_nat)) break;
+    landscape.ReportProgress(
+        0.25, fmt::format("calibrating anew with {}", effect::At(screened[i].effect).name));
+    JointFit with = fits.With(view, found, landscape.hypotheses()[screened[i].hypothesis]);
+    if (with.cost < best.cost) best = std::move(with);
+  }
+  if (!(best.cost < found.cost - judging.suspected_nat)) return false;
+  found = std::move(best);
+  return true;
+}
+
+/// Of all rows, under the observer of the landscape; false where the gain does not hold there.
+bool TakeOver(RecordLandscape& landscape, const SelectionRules& rules, const JointFit& without,
+              const JointFit& with, CauseSelection& found) {
+  landscape.LineariseAt(with.free.theta);
+  Refined fit = landscape.Fit(with.causes, with.free.theta, rules.effort.passes);
+  if (!fit.ok || !(landscape.MisfitOf(with.causes, fit.theta) <
+                   landscape.MisfitOf({}, without.free.theta) - rules.judging.suspected_nat))
+    return false;
+  found.causes = with.causes;
+  for (std::size_t i = 0; i < found.causes.size(); ++i) {
+    fit = landscape.RefineShapeOf(with.causes, i, std::move(fit));
+    landscape.TakePlace(found.causes[i]);
+  }
+  found.theta = fit.theta;
+  found.calibrated = without.free.theta;
+  found.refitted.clear();  // weighed about the calibration that hid them
+  return true;
+}
+
+}  // namespace
+
+bool TakeSwallowedCauses(RecordLandscape& landscape, const SelectionRules& rules,
+                         CauseSelection& found) {
+  const double tolerances = rules.judging.moved_tolerances;
+  if (!WentFar(landscape.terms(), landscape.view().problem, found.calibrated, {}, tolerances))
+    return false;
+  const FileFits fits(landscape);
+  // Compared on the same rows and with the same observer.
+  const JointFit without = fits.Free(found.calibrated, {});
+  if (!without.free.ok) return false;
+  JointFit with = without;
+  with.held = fits.FileNumbers();
+  while (with.causes.size() < rules.most_causes &&
+         (with.causes.empty() || WentFar(landscape.terms(), with.free.problem, with.free.theta,
+                                         with.causes, tolerances))) {
+    if (!AddOne(fits, landscape, rules.judging, with)) break;
+  }
+  if (with.causes.empty()) return false;
+  const std::size_t slow = landscape.speed();
+  landscape.Observe(kSpeeds.size() - 1);
+  const bool taken = TakeOver(landscape, rules, without, with, found);
+  if (!taken) landscape.Observe(slow);
+  landscape.LineariseAt(found.theta);
+  return taken;
+}
+
+}  // namespace levitas::diagnosis
