@@ -69,7 +69,7 @@ class RestLandscape {
   [[nodiscard]] std::size_t IndexOf(effect::Id id, const std::string& place) const {
     const auto& all = landscape.hypotheses();
     for (std::size_t i = 0; i < all.size(); ++i) {
-      if (all[i].effect == effect::At(id).name && all[i].place == place) return i;
+      if (all[i].effect == id && all[i].place == place) return i;
     }
     throw std::runtime_error("no hypothesis at " + place);
   }

@@ -7,6 +7,7 @@
 // Seen       which sets were fitted, in order, and how often it was linearised anew.
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <map>
 #include <set>
@@ -208,6 +209,11 @@ inline SelectionRules ThoroughRules() {
   SelectionRules rules;
   rules.effort = {40, 6, 8, 5, 1000, false};
   return rules;
+}
+
+/// True when the nonlinear model was asked for exactly these.
+inline bool WasFitted(const ToyLandscape& toy, const ToyLandscape::Effects& set) {
+  return std::find(toy.fits.begin(), toy.fits.end(), set) != toy.fits.end();
 }
 
 }  // namespace levitas::diagnosis

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "diagnosis/inference/selection_steps.hpp"
-#include "tests/unit/diagnosis/toy_effects.hpp"
+#include "tests/unit/diagnosis/toy_landscape.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -21,7 +21,7 @@ bool AddThoroughly(ToyLandscape& toy, CauseSelection& found) {
 // Taken at 40 nat, as the failed fit has it, the effect of -3 nat would lose.
 TEST(AddCauseToALostFit, ComparesWithTheLinearisedEvidence) {
   ToyLandscape toy({10.0});
-  const Hypothesis h = toy.Add(ToyEffect(Id::kUnbalance), {1.0});
+  const Hypothesis h = toy.Add(Id::kUnbalance, {1.0});
   toy.refused.insert(Effects{});
   toy.fitted[Effects{}] = 40.0;
   CauseSelection found = toy.Found({});
@@ -35,7 +35,7 @@ TEST(AddUnconfirmedCause, FindsItsShapeWhereAFitFollowsAndTheSearchIsThorough) {
        {std::tuple{true, false, "at its shape"}, std::tuple{false, false, "here"},
         std::tuple{true, true, "here"}}) {
     ToyLandscape toy({10.0});
-    const Hypothesis family = toy.Add(ToyEffect(Id::kAmplifierSlew), {1.0});
+    const Hypothesis family = toy.Add(Id::kAmplifierSlew, {1.0});
     toy.shape[family.effect] = 20.0;
     toy.fitted[{family.effect}] = -50.0;
     if (!follows) toy.refused.insert({family.effect});
@@ -53,8 +53,8 @@ TEST(AddUnconfirmedCause, FindsItsShapeWhereAFitFollowsAndTheSearchIsThorough) {
 TEST(AddCause, FitsOnlyWhatTheScreenMayHaveMisjudged) {
   for (const auto& [size, fitted] : {std::pair{12.0, true}, std::pair{10.0, false}}) {
     ToyLandscape toy({20.0, size});
-    toy.Add(ToyEffect(Id::kUnbalance), {1.0, 0.0});
-    const Hypothesis second = toy.Add(ToyEffect(Id::kShaftBow), {0.0, 1.0});
+    toy.Add(Id::kUnbalance, {1.0, 0.0});
+    const Hypothesis second = toy.Add(Id::kShaftBow, {0.0, 1.0});
     CauseSelection found = toy.Found({});
     ASSERT_TRUE(AddThoroughly(toy, found));
     EXPECT_EQ(WasFitted(toy, {second.effect}), fitted) << size;
@@ -68,7 +68,7 @@ struct Elsewhere {
     toy.probes.push_back({0, 0, 0.03});
   }
   ToyLandscape toy{{10.0, 0.0}};
-  Hypothesis mode = toy.Add(ToyEffect(Id::kModalFrequency), {0.0, 1.0});
+  Hypothesis mode = toy.Add(Id::kModalFrequency, {0.0, 1.0});
   CauseSelection found = toy.Found({});
 };
 
@@ -92,7 +92,7 @@ TEST(AddProbedMode, IsPassedOverWhereNoFitFollows) {
 // 20 nat beside a first cause of 100: the screen's 47 are more.
 TEST(AddProbedMode, GivesWayToWhatTheScreenFoundBetter) {
   Elsewhere e;
-  const Hypothesis better = e.toy.Add(ToyEffect(Id::kUnbalance), {1.0, 0.0});
+  const Hypothesis better = e.toy.Add(Id::kUnbalance, {1.0, 0.0});
   e.found = e.toy.Found({});
   ASSERT_TRUE(AddThoroughly(e.toy, e.found));
   EXPECT_EQ(ToyLandscape::EffectsOf(e.found.causes), Effects{better.effect});
@@ -100,9 +100,9 @@ TEST(AddProbedMode, GivesWayToWhatTheScreenFoundBetter) {
 
 TEST(AddCauseToTwo, DropsTheSuperfluousOneAndKeepsTheOther) {
   ToyLandscape toy({10.0, 0.0, 9.0});
-  const Hypothesis imitation = toy.Add(ToyEffect(Id::kUnbalance), {1.0, 1.0, 0.0});
-  const Hypothesis other = toy.Add(ToyEffect(Id::kShaftBow), {0.0, 0.0, 1.0});
-  const Hypothesis true_cause = toy.Add(ToyEffect(Id::kMisalignment), {1.0, 0.0, 0.0});
+  const Hypothesis imitation = toy.Add(Id::kUnbalance, {1.0, 1.0, 0.0});
+  const Hypothesis other = toy.Add(Id::kShaftBow, {0.0, 0.0, 1.0});
+  const Hypothesis true_cause = toy.Add(Id::kMisalignment, {1.0, 0.0, 0.0});
   CauseSelection found = toy.Found({imitation, other});
   ASSERT_TRUE(AddThoroughly(toy, found));
   EXPECT_EQ(ToyLandscape::EffectsOf(found.causes), (Effects{other.effect, true_cause.effect}));
@@ -113,9 +113,9 @@ TEST(AddCauseToTwo, DropsTheSuperfluousOneAndKeepsTheOther) {
 // -1 nat for the second: 2^2 / 2 - 3.
 TEST(DropUnprovenOfThree, DropsTheOneInTheMiddleAlone) {
   ToyLandscape toy({10.0, 2.0, 9.0});
-  const Hypothesis x = toy.Add(ToyEffect(Id::kUnbalance), {1.0, 0.0, 0.0});
-  const Hypothesis y = toy.Add(ToyEffect(Id::kShaftBow), {0.0, 1.0, 0.0});
-  const Hypothesis z = toy.Add(ToyEffect(Id::kMisalignment), {0.0, 0.0, 1.0});
+  const Hypothesis x = toy.Add(Id::kUnbalance, {1.0, 0.0, 0.0});
+  const Hypothesis y = toy.Add(Id::kShaftBow, {0.0, 1.0, 0.0});
+  const Hypothesis z = toy.Add(Id::kMisalignment, {0.0, 0.0, 1.0});
   CauseSelection found = toy.Found({x, y, z});
   DropUnproven(toy, ThoroughRules(), found);
   EXPECT_EQ(ToyLandscape::EffectsOf(found.causes), (Effects{x.effect, z.effect}));
@@ -126,9 +126,9 @@ TEST(DropUnprovenOfThree, DropsTheOneInTheMiddleAlone) {
 // Of two that are the same each is worth nothing beside the other: one of them must stay.
 TEST(DropUnprovenOfThree, LeavesOneOfTwoThatStandForEachOther) {
   ToyLandscape toy({10.0, 9.0});
-  const Hypothesis x = toy.Add(ToyEffect(Id::kUnbalance), {1.0, 0.0});
-  const Hypothesis twin = toy.Add(ToyEffect(Id::kShaftBow), {1.0, 0.0});
-  const Hypothesis y = toy.Add(ToyEffect(Id::kMisalignment), {0.0, 1.0});
+  const Hypothesis x = toy.Add(Id::kUnbalance, {1.0, 0.0});
+  const Hypothesis twin = toy.Add(Id::kShaftBow, {1.0, 0.0});
+  const Hypothesis y = toy.Add(Id::kMisalignment, {0.0, 1.0});
   CauseSelection found = toy.Found({x, y, twin});
   DropUnproven(toy, ThoroughRules(), found);
   ASSERT_EQ(found.causes.size(), 2U);

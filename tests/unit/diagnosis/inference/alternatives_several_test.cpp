@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "diagnosis/inference/alternatives.hpp"
-#include "tests/unit/diagnosis/toy_effects.hpp"
+#include "tests/unit/diagnosis/toy_landscape.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -25,9 +25,9 @@ std::vector<double> Explaining(double share) { return {std::sqrt(share), std::sq
 
 TEST(RankCandidatesOfThree, PutsTheStrongestFirstAndRanksBesideTheOtherTwo) {
   ToyLandscape toy({6.0, 10.0, 8.0});
-  const Hypothesis x = toy.Add(ToyEffect(Id::kUnbalance), {1.0, 0.0, 0.0});
-  const Hypothesis y = toy.Add(ToyEffect(Id::kShaftBow), {0.0, 1.0, 0.0});
-  const Hypothesis z = toy.Add(ToyEffect(Id::kMisalignment), {0.0, 0.0, 1.0});
+  const Hypothesis x = toy.Add(Id::kUnbalance, {1.0, 0.0, 0.0});
+  const Hypothesis y = toy.Add(Id::kShaftBow, {0.0, 1.0, 0.0});
+  const Hypothesis z = toy.Add(Id::kMisalignment, {0.0, 0.0, 1.0});
   CauseSelection found = toy.Found({x, z, y});
   RankCandidates(toy, ThoroughRules(), found);
   EXPECT_EQ(found.causes.front().effect, y.effect);
@@ -40,7 +40,7 @@ TEST(RankCandidatesOfThree, PutsTheStrongestFirstAndRanksBesideTheOtherTwo) {
 TEST(RankCandidatesOfAFirstAnswer, TakesTheLeadersFitUnlessItWasWhitenedAnew) {
   for (const auto& [anew, score] : {std::pair{false, 11.0}, std::pair{true, 47.0}}) {
     ToyLandscape toy({10.0});
-    const Hypothesis x = toy.Add(ToyEffect(Id::kUnbalance), {1.0});
+    const Hypothesis x = toy.Add(Id::kUnbalance, {1.0});
     SelectionRules rules = ThoroughRules();
     rules.effort.first_cause_only = true;
     CauseSelection found = toy.Found({x});
@@ -54,8 +54,8 @@ TEST(RankCandidatesOfAFirstAnswer, TakesTheLeadersFitUnlessItWasWhitenedAnew) {
 /// A leader that explains all of one reading, and an alternative that explains `share` of it.
 struct LeaderBeside {
   LeaderBeside(double reading, double share)
-      : toy({reading, 0.0}), alternative(toy.Add(ToyEffect(Id::kMisalignment), Explaining(share))) {
-    leader = toy.Add(ToyEffect(Id::kUnbalance), {1.0, 0.0});
+      : toy({reading, 0.0}), alternative(toy.Add(Id::kMisalignment, Explaining(share))) {
+    leader = toy.Add(Id::kUnbalance, {1.0, 0.0});
     found = toy.Found({leader});
   }
   void Refit() {
@@ -130,9 +130,9 @@ TEST(RefitAlternatives, OfALeaderThatIsNoCandidateKnowsItsEvidenceAlone) {
 
 TEST(RefitAlternatives, ReplaceTheFirstOfTwoAndKeepTheOther) {
   ToyLandscape toy({10.0, 0.0, 8.0});
-  const Hypothesis leader = toy.Add(ToyEffect(Id::kUnbalance), {1.0, 0.0, 0.0});
-  const Hypothesis alternative = toy.Add(ToyEffect(Id::kMisalignment), {0.95, 0.3, 0.0});
-  const Hypothesis other = toy.Add(ToyEffect(Id::kShaftBow), {0.0, 0.0, 1.0});
+  const Hypothesis leader = toy.Add(Id::kUnbalance, {1.0, 0.0, 0.0});
+  const Hypothesis alternative = toy.Add(Id::kMisalignment, {0.95, 0.3, 0.0});
+  const Hypothesis other = toy.Add(Id::kShaftBow, {0.0, 0.0, 1.0});
   toy.fitted[{alternative.effect, other.effect}] = -2.0;  // the leader's: -6
   CauseSelection found = toy.Found({leader, other});
   RankCandidates(toy, ThoroughRules(), found);
@@ -149,8 +149,8 @@ TEST(RefitAlternatives, ReplaceTheFirstOfTwoAndKeepTheOther) {
 
 TEST(DropFailedLeader, KeepsOneWithoutWhichNoFitFollows) {
   ToyLandscape toy({10.0, 8.0});
-  const Hypothesis leader = toy.Add(ToyEffect(Id::kUnbalance), {1.0, 0.0});
-  const Hypothesis other = toy.Add(ToyEffect(Id::kShaftBow), {0.0, 1.0});
+  const Hypothesis leader = toy.Add(Id::kUnbalance, {1.0, 0.0});
+  const Hypothesis other = toy.Add(Id::kShaftBow, {0.0, 1.0});
   CauseSelection found = toy.Found({leader, other});
   found.leader_evidence = -6.0;
   toy.fitted[{other.effect}] = -6.0;  // without a refusal it would not be needed
@@ -163,9 +163,9 @@ TEST(DropFailedLeader, KeepsOneWithoutWhichNoFitFollows) {
 TEST(DropFailedLeader, OfThreeGoesWhereTheOtherTwoLoseLessThanWhatDecides) {
   for (const auto& [cost, left] : {std::pair{4.9, 2U}, std::pair{5.1, 3U}}) {
     ToyLandscape toy({10.0, 8.0, 9.0});
-    const Hypothesis leader = toy.Add(ToyEffect(Id::kUnbalance), {1.0, 0.0, 0.0});
-    const Hypothesis y = toy.Add(ToyEffect(Id::kShaftBow), {0.0, 1.0, 0.0});
-    const Hypothesis z = toy.Add(ToyEffect(Id::kMisalignment), {0.0, 0.0, 1.0});
+    const Hypothesis leader = toy.Add(Id::kUnbalance, {1.0, 0.0, 0.0});
+    const Hypothesis y = toy.Add(Id::kShaftBow, {0.0, 1.0, 0.0});
+    const Hypothesis z = toy.Add(Id::kMisalignment, {0.0, 0.0, 1.0});
     CauseSelection found = toy.Found({leader, y, z});
     found.leader_evidence = -9.0;
     toy.fitted[{y.effect, z.effect}] = -9.0 - cost;

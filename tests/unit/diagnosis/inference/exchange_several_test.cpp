@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "diagnosis/inference/exchange.hpp"
-#include "tests/unit/diagnosis/toy_effects.hpp"
+#include "tests/unit/diagnosis/toy_landscape.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -18,12 +18,12 @@ using Effects = ToyLandscape::Effects;
 /// that nothing moved.
 struct ThreeToExchange {
   ToyLandscape toy{{10.0, 9.0, 8.0, 0.0}};
-  Hypothesis x = toy.Add(ToyEffect(Id::kUnbalance), {1.0, 0.0, 0.0, 0.0});
-  Hypothesis y = toy.Add(ToyEffect(Id::kShaftBow), {0.0, 1.0, 0.0, 0.0});
-  Hypothesis z = toy.Add(ToyEffect(Id::kMisalignment), {0.0, 0.0, 1.0, 0.0});
-  Hypothesis not_x = toy.Add(ToyEffect(Id::kSensorRunout), {1.0, 0.0, 0.0, 0.4});
-  Hypothesis not_y = toy.Add(ToyEffect(Id::kStaticLoad), {0.0, 1.0, 0.0, 0.4});
-  Hypothesis not_z = toy.Add(ToyEffect(Id::kSensorOffset), {0.0, 0.0, 1.0, 0.4});
+  Hypothesis x = toy.Add(Id::kUnbalance, {1.0, 0.0, 0.0, 0.0});
+  Hypothesis y = toy.Add(Id::kShaftBow, {0.0, 1.0, 0.0, 0.0});
+  Hypothesis z = toy.Add(Id::kMisalignment, {0.0, 0.0, 1.0, 0.0});
+  Hypothesis not_x = toy.Add(Id::kSensorRunout, {1.0, 0.0, 0.0, 0.4});
+  Hypothesis not_y = toy.Add(Id::kStaticLoad, {0.0, 1.0, 0.0, 0.4});
+  Hypothesis not_z = toy.Add(Id::kSensorOffset, {0.0, 0.0, 1.0, 0.4});
 
   [[nodiscard]] CauseSelection Exchanged(const std::vector<Hypothesis>& causes) {
     CauseSelection found = toy.Found(causes);
@@ -82,9 +82,9 @@ TEST(ExchangeOfThree, RefinesTheShapesOfAllOfThemTogether) {
 // The twin explains as much as the second cause beside the first; two of one effect are one.
 TEST(ExchangeOfTwo, NeverPutsAnEffectInItsOwnPlaceOrThatOfTheOther) {
   ToyLandscape toy({10.0, 9.0});
-  const Hypothesis x = toy.Add(ToyEffect(Id::kUnbalance), {1.0, 0.0}, "de");
-  toy.Add(ToyEffect(Id::kUnbalance), {0.1, 1.0}, "nde");
-  const Hypothesis y = toy.Add(ToyEffect(Id::kShaftBow), {0.3, 1.0});
+  const Hypothesis x = toy.Add(Id::kUnbalance, {1.0, 0.0}, "de");
+  toy.Add(Id::kUnbalance, {0.1, 1.0}, "nde");
+  const Hypothesis y = toy.Add(Id::kShaftBow, {0.3, 1.0});
   CauseSelection found = toy.Found({x, y});
   ExchangeCauses(toy, ThoroughRules(), found);
   EXPECT_EQ(ToyLandscape::EffectsOf(found.causes), (Effects{x.effect, y.effect}));
@@ -97,10 +97,10 @@ TEST(ExchangeOfTwo, NeverPutsAnEffectInItsOwnPlaceOrThatOfTheOther) {
 TEST(ExchangeOfTwo, TriesWhatComesWithinAShareOfTheEvidence) {
   for (const auto& [share, tried] : {std::pair{0.65, true}, std::pair{0.55, false}}) {
     ToyLandscape toy({10.0, 14.0, 0.0});
-    const Hypothesis x = toy.Add(ToyEffect(Id::kUnbalance), {1.0, 0.0, 0.0});
-    const Hypothesis y = toy.Add(ToyEffect(Id::kShaftBow), {0.0, 1.0, 0.0});
+    const Hypothesis x = toy.Add(Id::kUnbalance, {1.0, 0.0, 0.0});
+    const Hypothesis y = toy.Add(Id::kShaftBow, {0.0, 1.0, 0.0});
     const Hypothesis beside =
-        toy.Add(ToyEffect(Id::kMisalignment), {0.0, std::sqrt(share), std::sqrt(1.0 - share)});
+        toy.Add(Id::kMisalignment, {0.0, std::sqrt(share), std::sqrt(1.0 - share)});
     CauseSelection found = toy.Found({x, y});
     ExchangeCauses(toy, ThoroughRules(), found);
     EXPECT_EQ(WasFitted(toy, {x.effect, beside.effect}), tried) << share;
@@ -111,10 +111,10 @@ TEST(ExchangeOfTwo, TriesWhatComesWithinAShareOfTheEvidence) {
 TEST(ExchangeOfTwo, TriesWhatComesWithinNearNatOfAWeakCause) {
   for (const auto& [share, tried] : {std::pair{0.25, true}, std::pair{0.08, false}}) {
     ToyLandscape toy({10.0, 6.0, 0.0});
-    const Hypothesis x = toy.Add(ToyEffect(Id::kUnbalance), {1.0, 0.0, 0.0});
-    const Hypothesis y = toy.Add(ToyEffect(Id::kShaftBow), {0.0, 1.0, 0.0});
+    const Hypothesis x = toy.Add(Id::kUnbalance, {1.0, 0.0, 0.0});
+    const Hypothesis y = toy.Add(Id::kShaftBow, {0.0, 1.0, 0.0});
     const Hypothesis beside =
-        toy.Add(ToyEffect(Id::kMisalignment), {0.0, std::sqrt(share), std::sqrt(1.0 - share)});
+        toy.Add(Id::kMisalignment, {0.0, std::sqrt(share), std::sqrt(1.0 - share)});
     CauseSelection found = toy.Found({x, y});
     ExchangeCauses(toy, ThoroughRules(), found);
     EXPECT_EQ(WasFitted(toy, {x.effect, beside.effect}), tried) << share;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "diagnosis/inference/selection_steps.hpp"
-#include "tests/unit/diagnosis/toy_effects.hpp"
+#include "tests/unit/diagnosis/toy_landscape.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -18,10 +18,10 @@ using Effects = ToyLandscape::Effects;
 /// effect in their place may cost 5 + 0.02 * 94 = 6.88 nat: -12.88.
 struct TwoToMerge {
   ToyLandscape toy{{10.0, 10.0}};
-  Hypothesis x = toy.Add(ToyEffect(Id::kUnbalance), {1.0, 0.0});
-  Hypothesis y = toy.Add(ToyEffect(Id::kShaftBow), {0.0, 1.0});
+  Hypothesis x = toy.Add(Id::kUnbalance, {1.0, 0.0});
+  Hypothesis y = toy.Add(Id::kShaftBow, {0.0, 1.0});
   /// -3 nat on the screen
-  Hypothesis both = toy.Add(ToyEffect(Id::kMisalignment), {1.0, 1.0});
+  Hypothesis both = toy.Add(Id::kMisalignment, {1.0, 1.0});
 
   [[nodiscard]] CauseSelection Merged(const SelectionRules& rules = ThoroughRules()) {
     CauseSelection found = toy.Found({x, y});
@@ -41,7 +41,7 @@ TEST(MergeTwoCauses, MayCostTheLeastGainOfACauseAndNoMore) {
 TEST(MergeTwoCauses, TakesTheEffectThatTheNonlinearModelPrefers) {
   TwoToMerge two;
   // Leaves 11.8 of 200: -8.9 nat, on the screen and in fact.
-  const Hypothesis skew = two.toy.Add(ToyEffect(Id::kSensorRunout), {1.0, 0.6});
+  const Hypothesis skew = two.toy.Add(Id::kSensorRunout, {1.0, 0.6});
   two.toy.fitted[{two.both.effect}] = -20.0;
   const CauseSelection found = two.Merged();
   EXPECT_EQ(ToyLandscape::EffectsOf(found.causes), Effects{skew.effect});
@@ -51,7 +51,7 @@ TEST(MergeTwoCauses, TakesTheEffectThatTheNonlinearModelPrefers) {
 
 TEST(MergeTwoCauses, PassesOverAnEffectThatCannotBeFitted) {
   TwoToMerge two;
-  const Hypothesis skew = two.toy.Add(ToyEffect(Id::kSensorRunout), {1.0, 0.6});
+  const Hypothesis skew = two.toy.Add(Id::kSensorRunout, {1.0, 0.6});
   two.toy.refused.insert({two.both.effect});
   EXPECT_EQ(ToyLandscape::EffectsOf(two.Merged().causes), Effects{skew.effect});
   two.toy.refused.insert({skew.effect});
@@ -60,7 +60,7 @@ TEST(MergeTwoCauses, PassesOverAnEffectThatCannotBeFitted) {
 
 TEST(MergeTwoCauses, TriesNoMoreThanTheShortlist) {
   TwoToMerge two;
-  const Hypothesis skew = two.toy.Add(ToyEffect(Id::kSensorRunout), {1.0, 0.6});
+  const Hypothesis skew = two.toy.Add(Id::kSensorRunout, {1.0, 0.6});
   two.toy.fitted[{two.both.effect}] = -20.0;
   SelectionRules rules = ThoroughRules();
   rules.effort.shortlist = 1;
@@ -70,9 +70,9 @@ TEST(MergeTwoCauses, TriesNoMoreThanTheShortlist) {
 
 TEST(MergeTwoCauses, OfOneEffectGivesThatEffectAtAThirdPlace) {
   ToyLandscape toy({10.0, 10.0});
-  const Hypothesis de = toy.Add(ToyEffect(Id::kUnbalance), {1.0, 0.0}, "de");
-  const Hypothesis nde = toy.Add(ToyEffect(Id::kUnbalance), {0.0, 1.0}, "nde");
-  toy.Add(ToyEffect(Id::kUnbalance), {1.0, 1.0}, "disc");
+  const Hypothesis de = toy.Add(Id::kUnbalance, {1.0, 0.0}, "de");
+  const Hypothesis nde = toy.Add(Id::kUnbalance, {0.0, 1.0}, "nde");
+  toy.Add(Id::kUnbalance, {1.0, 1.0}, "disc");
   CauseSelection found = toy.Found({de, nde});
   MergeCauses(toy, ThoroughRules(), found);
   ASSERT_EQ(found.causes.size(), 1U);
@@ -91,12 +91,12 @@ TEST(MergeTwoCauses, LeavesASingleCauseUnfitted) {
 /// 5 + 0.02 * 141 = 7.82 nat: -16.82.
 struct ThreeToMerge {
   ToyLandscape toy{{10.0, 10.0, 10.0}};
-  Hypothesis x = toy.Add(ToyEffect(Id::kUnbalance), {1.0, 0.0, 0.0});
-  Hypothesis y = toy.Add(ToyEffect(Id::kShaftBow), {0.0, 1.0, 0.0});
-  Hypothesis z = toy.Add(ToyEffect(Id::kMisalignment), {0.0, 0.0, 1.0});
-  Hypothesis xy = toy.Add(ToyEffect(Id::kSensorRunout), {1.0, 1.0, 0.0});
+  Hypothesis x = toy.Add(Id::kUnbalance, {1.0, 0.0, 0.0});
+  Hypothesis y = toy.Add(Id::kShaftBow, {0.0, 1.0, 0.0});
+  Hypothesis z = toy.Add(Id::kMisalignment, {0.0, 0.0, 1.0});
+  Hypothesis xy = toy.Add(Id::kSensorRunout, {1.0, 1.0, 0.0});
   /// Of all three readings; beside a cause of its own no fit of it follows.
-  Hypothesis all = toy.Add(ToyEffect(Id::kBreathingCrack), {1.0, 1.0, 1.0});
+  Hypothesis all = toy.Add(Id::kBreathingCrack, {1.0, 1.0, 1.0});
 
   ThreeToMerge() {
     for (const Hypothesis& own : {x, y, z}) toy.refused.insert({all.effect, own.effect});
