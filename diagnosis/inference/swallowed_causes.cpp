@@ -100,9 +100,9 @@ class FileFits {
     for (const double times : {0.0, 4.0, 1.0, 2.0}) {
       Refined fit = coarse_.Approach(Start(base.held, seen, causes.back(), times), kWhiteningOrder,
                                      kHeldPasses, causes);
-      const double misfit =
-          fit.ok ? coarse_.Misfit(fit.theta, kWhiteningOrder, causes) : 2.0 * std::abs(least);
-      if (fit.ok && misfit < least) {
+      const double misfit = fit.ok ? coarse_.Misfit(fit.theta, kWhiteningOrder, causes)
+                                   : std::numeric_limits<double>::infinity();
+      if (misfit < least) {
         least = misfit;
         nearest = std::move(fit);
       }

@@ -168,6 +168,14 @@ TEST(CouplingStiffness, IsASymmetricSpring) {
   });
 }
 
+TEST(CouplingStiffness, PushesAcrossTheDeflectionByItsWhirl) {
+  ExpectAdds(Entry(Id::kCouplingStiffness, {0.0, 2e4, 0.0, 3e3}),
+             [](std::size_t i, const Motion& m) {
+               const Complex r = At(m, 0.0, 0, false);
+               return -Shape(i, 0.0) * (2e4 - 3e3 * kJ) * r;  // 3e3 [-y, x] = 3e3 j r
+             });
+}
+
 TEST(CrossCoupledStiffness, PushesAcrossTheDeflection) {
   ExpectAdds(Entry(Id::kCrossCoupledStiffness, {kZ_m, 5e3}), [](std::size_t i, const Motion& m) {
     const Complex r = At(m, kZ_m, 0, false);

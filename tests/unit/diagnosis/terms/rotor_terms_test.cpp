@@ -55,6 +55,23 @@ TEST_F(RotorTermsTest, UnbalanceTurnsWithTheShaftAndGrowsWithTheSquareOfSpeed) {
   }
 }
 
+// The centre of mass is at r e^(j angle): twice differentiated, (j W' - W^2) r e^(j angle), and the
+// force on the rotor is the negative of it times the mass.
+TEST_F(RotorTermsTest, AnUnbalanceThatIsTurnedFasterPushesAcrossItself) {
+  constexpr double kFasterRadPerS2 = 283.0;
+  const auto shape = TheRig().Shape(0.2992);
+  SamplePoint m = Turning(1.0);
+  m.acceleration_rad_per_s2 = static_cast<float>(kFasterRadPerS2);
+  const std::complex<double> outward(kSpeedRadPerS * kSpeedRadPerS, -kFasterRadPerS2);
+  const Contribution cosine = Of("unbalance", "z 299.2 mm", "cosine", m, 3e-5);
+  const Contribution sine = Of("unbalance", "z 299.2 mm", "sine", m, 3e-5);
+  for (std::size_t i = 0; i < modes_; ++i) {
+    const auto expected = 3e-5 * shape[i] * outward * std::polar(1.0, MidAngle(m));
+    EXPECT_LT(std::abs(Modal(cosine, i) - expected), 1e-6) << i;
+    EXPECT_LT(std::abs(Modal(sine, i) - expected * std::complex<double>(0.0, 1.0)), 1e-6) << i;
+  }
+}
+
 TEST_F(RotorTermsTest, TheSinePartIsAQuarterTurnAhead) {
   for (const char* effect : {"unbalance", "shaft_bow"}) {
     const std::string place = effect == std::string("unbalance") ? "z 299.2 mm" : "mode 1";
