@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/problem.hpp"
+#include "diagnosis/inference/coloured.hpp"
 #include "diagnosis/inference/residual.hpp"
 
 namespace levitas::diagnosis {
@@ -15,22 +16,32 @@ constexpr std::size_t kStartRows = 30'000;
 constexpr int kStartPasses = 5;
 constexpr double kHeld = 0.2;  ///< of its tolerance
 
-/// From the nominal rig: a fast observer on a few rows, then the one of `gains`.
+/// Whether a filter takes the fit's innovations for coloured: it may hide an orbit.
+bool IsColoured(const Search& search, const std::vector<Record>& records, const Gains& gains,
+                const std::vector<double>& theta) {
+  constexpr double kLoud = 1.5;
+  const auto runs = search.Run(records, gains, theta);
+  return TakesAway(search.WhitenerOf(runs, kWhiteningOrder), search.WhitenerOf(runs, 0), kLoud);
+}
+
+/// From the nominal rig: a fast observer on a few rows, then the one of `gains`. Where that ends
+/// with what a filter takes for colour, also without the fast one; what fits better stays.
 std::vector<double> FromFar(const RigView& rig, const Search& search,
                             const std::vector<Term>& terms, const std::vector<Record>& few,
                             const std::vector<Record>& records, const Gains& gains) {
   const Gains fast = search.DesignGains(few, kFast);
-  std::vector<double> start = search.HealthyParameters();
+  const std::vector<double> file = search.HealthyParameters();
   const Refined coarse =
-      Refiner(search, terms, few, fast, rig.axes).Approach(start, kWhiteningOrder, 3);
+      Refiner(search, terms, few, fast, rig.axes).Approach(file, kWhiteningOrder, 3);
   const Refiner refiner(search, terms, records, gains, rig.axes);
-  // Keep the fast-observer fit only if its unwhitened residual power is not above the start's. A
-  // whitening filter refitted per candidate would hide a large orbit as coloured noise.
-  if (coarse.ok && refiner.Misfit(coarse.theta, 0) <= refiner.Misfit(start, 0)) {
-    start = coarse.theta;
-  }
-  const Refined fine = refiner.Approach(start, kWhiteningOrder, kStartPasses);
-  return fine.ok ? fine.theta : start;
+  const Refined fine =
+      refiner.Approach(coarse.ok ? coarse.theta : file, kWhiteningOrder, kStartPasses);
+  if (fine.ok && !IsColoured(search, records, gains, fine.theta)) return fine.theta;
+  const Refined direct = refiner.Approach(file, kWhiteningOrder, kStartPasses);
+  if (!direct.ok) return fine.ok ? fine.theta : file;
+  const bool better = !fine.ok || refiner.Misfit(direct.theta, kWhiteningOrder) <
+                                      refiner.Misfit(fine.theta, kWhiteningOrder);
+  return better ? direct.theta : fine.theta;
 }
 
 /// The records of a rotor that stands; none where all do, or none does.

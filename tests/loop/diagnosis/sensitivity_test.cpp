@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "benchmark/accuracy/trial.hpp"
+#include "common/rotational_speed.hpp"
 #include "diagnosis/inference/search.hpp"
 #include "diagnosis/terms/terms.hpp"
 
@@ -159,6 +160,7 @@ class SensitivityOfAFastRotor : public Sensitivity {
     accuracy::TestRig bench = accuracy::LoadTestRig("flexible_rotor", {"flexible_rotor"});
     for (rotor::Disc& disc : bench.rig.plant.rotor.discs) disc.polar_inertia_kg_m2 *= 4.0;
     bench.trials.spinning_from_rpm = bench.trials.spinning_to_rpm = 9000.0;
+    bench.rig.numbers.max_speed_rad_per_s = RpmToRadPerS(9000.0);
     return bench;
   }
 };
