@@ -68,6 +68,13 @@ class ForeignCampaigns(unittest.TestCase):
         # Refuted by the run-up where it is still weighed; too far behind to be, it has no number.
         self.assertLess(-1.0 if worth["sensor_runout"] is None else worth["sensor_runout"], 0.0)
 
+    def test_a_spring_is_named_that_calibration_takes_for_wrong_mode_shapes(self):
+        """Without a second look from the file's numbers: unknown, shapes six tolerances off."""
+        answer = diagnose("coupling_stiffness", ("standing",))
+        self.assertEqual((answer["verdict"], answer["all_causes"]), ("effect", ["coupling_stiffness"]),
+                         answer["candidates"][:3])
+        self.assertLess(max(c["moved_tolerances"] for c in answer["calibrated"]), 3.0)
+
     def test_a_clear_cause_is_not_doubted_for_a_run_up_that_cannot_show_it(self):
         answer = diagnose("eddy_current", ("standing", "spinning"), "runup")
         self.assertEqual(answer["verdict"], "effect", answer["candidates"][:3])
