@@ -34,12 +34,12 @@ void FindAccelerations(double period_s, std::vector<RecordedRow>& rows) {
   // Slopes of the speed over so long to either side: speeds of a tachometer scatter from sample to
   // sample.
   constexpr double kHalf = 0.025;  // [s]
-  constexpr std::uint64_t kMostLost = 20;
   const auto half = static_cast<std::size_t>(std::llround(kHalf / period_s));
   for (std::size_t first = 0; first < rows.size();) {
     std::size_t end = first + 1;
-    while (end < rows.size() && rows[end].cycle > rows[end - 1].cycle &&
-           rows[end].cycle - rows[end - 1].cycle <= kMostLost)
+    // A frame that was lost stands in a session as a row of the cycle before.
+    while (end < rows.size() && rows[end].cycle >= rows[end - 1].cycle &&
+           rows[end].cycle - rows[end - 1].cycle <= kMostLost + 1)
       ++end;
     for (std::size_t i = first; i < end; ++i) {
       const RecordedRow& from = rows[i - std::min(half, i - first)];

@@ -7,6 +7,7 @@
 // Memory     328 bytes a row (3.3 MB a second at 10 kHz) besides the recording.
 // Thread     any.
 
+#include <cstdint>
 #include <vector>
 
 #include "analysis/records/innovations.hpp"
@@ -15,6 +16,9 @@
 namespace levitas::analysis {
 
 [[nodiscard]] std::vector<RecordedRow> RowsOf(const session::Recording& recording);
+
+/// Frames lost in a row over which a record goes on; more are a pause.
+inline constexpr std::uint64_t kMostLost = 20;
 
 /// Sets RecordedSample::acceleration_rad_per_s2 of rows that follow one another.
 void FindAccelerations(double period_s, std::vector<RecordedRow>& rows);

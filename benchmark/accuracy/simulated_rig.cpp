@@ -1,5 +1,6 @@
 #include "benchmark/accuracy/simulated_rig.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -10,7 +11,11 @@
 namespace levitas::accuracy {
 
 SimulatedRig::SimulatedRig(const cycle::CycleConfig& config, plant::Plant plant, RigLine* line)
-    : period_s_(config.rig.period_s()), plant_(std::move(plant)), cycle_(config), line_(line) {
+    : period_s_(config.rig.period_s()),
+      max_acceleration_rad_per_s2_(config.rig.max_acceleration_rad_per_s2),
+      plant_(std::move(plant)),
+      cycle_(config),
+      line_(line) {
   plant_.RestInTouchdown();
 }
 
@@ -55,7 +60,7 @@ void SimulatedRig::SpinAt(double rpm) {
   plant_.SetSpeed(RpmToRadPerS(rpm), 0.0);
   Step({.command = OperatorCommand::kSpin,
         .speed_rad_per_s = RpmToRadPerS(rpm),
-        .acceleration_rad_per_s2 = RpmToRadPerS(kRpmPerS)});
+        .acceleration_rad_per_s2 = std::min(RpmToRadPerS(kRpmPerS), max_acceleration_rad_per_s2_)});
   Run(0.5);
 }
 

@@ -40,7 +40,7 @@ class SimulatedRig {
   /// Whole periods, rounded.
   void Run(double time_s);
 
-  /// And `settle_s` more. Ends at once when the supervisor trips.
+  /// Lifts, and goes on for `settle_s`. Ends at once when the supervisor trips.
   [[nodiscard]] bool Lift(double settle_s = 0.5);
   void Levitate(double settle_s = 0.5);
   /// At speed without the time of a run-up: the drive holds it.
@@ -56,6 +56,7 @@ class SimulatedRig {
   [[nodiscard]] bool Hold(double time_s, Mode mode);
 
   double period_s_;
+  double max_acceleration_rad_per_s2_;
   plant::Plant plant_;
   cycle::ControlCycle cycle_;
   RigLine* line_;

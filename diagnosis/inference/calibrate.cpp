@@ -19,13 +19,13 @@ constexpr double kHeld = 0.2;  ///< of its tolerance
 /// Whether a filter takes the fit's innovations for coloured: it may hide an orbit.
 bool IsColoured(const Search& search, const std::vector<Record>& records, const Gains& gains,
                 const std::vector<double>& theta) {
-  constexpr double kLoud = 1.5;
   const auto runs = search.Run(records, gains, theta);
   return TakesAway(search.WhitenerOf(runs, kWhiteningOrder), search.WhitenerOf(runs, 0), kLoud);
 }
 
 /// From the nominal rig: a fast observer on a few rows, then the one of `gains`. Where that ends
-/// with what a filter takes for colour, also without the fast one; what fits better stays.
+/// with what a filter takes for colour, also without the fast one; what fits better stays. A filter
+/// that hides an orbit leaves more than it claims, and Misfit counts that.
 std::vector<double> FromFar(const RigView& rig, const Search& search,
                             const std::vector<Term>& terms, const std::vector<Record>& few,
                             const std::vector<Record>& records, const Gains& gains) {

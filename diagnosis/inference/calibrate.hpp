@@ -29,8 +29,8 @@ namespace levitas::diagnosis {
 inline constexpr std::size_t kWhiteningOrder = 40;
 inline constexpr double kDaily = 0.2;  ///< share of its tolerance
 
-/// Parameters of construction (gains, delays, modes, mass) with a fifth of their tolerances; those of
-/// state (unbalance, offset, load) as they are.
+/// Parameters of construction (gains, delays, modes, mass) with a fifth of their tolerances; those
+/// of state (unbalance, offset, load) as they are.
 [[nodiscard]] std::vector<Term> HeldToFile(std::vector<Term> terms);
 
 /// `gains` are those of observers of this speed for `records`; `all` may be longer.

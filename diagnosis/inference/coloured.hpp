@@ -9,6 +9,9 @@
 
 namespace levitas::diagnosis {
 
+/// Times from which a fault, or an orbit, is loud enough to be held.
+inline constexpr double kLoud = 1.5;
+
 /// Whether the rms of what is left is `times` that behind the filter, on some axis. `plain`: a
 /// filter of order 0 of the same runs. Every filter begins with one over the rms of what it leaves.
 [[nodiscard]] inline bool TakesAway(const Whitener& filter, const Whitener& plain, double times) {

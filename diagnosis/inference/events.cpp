@@ -4,13 +4,11 @@
 
 #include <cmath>
 
+#include "analysis/records/recorded_rows.hpp"
 #include "diagnosis/model/repeated_frames.hpp"
 
 namespace levitas::diagnosis {
 namespace {
-
-/// More in a row are no loss but a pause: another flight, or rows that were left out.
-constexpr std::uint64_t kMostLost = 20;
 
 /// Lost frames that the rig file states, and as many again as chance may add: three deviations of a
 /// sum of bursts.
@@ -36,7 +34,7 @@ LostFrames CountFrames(const RigView& rig, const std::vector<Record>& records) {
       const auto& before = record.rows[n - 1];
       const auto& now = record.rows[n];
       if (!before.levitated || !now.levitated) continue;
-      if (now.cycle > before.cycle + 1 + kMostLost) continue;
+      if (now.cycle > before.cycle + 1 + analysis::kMostLost) continue;
       const bool missing = now.cycle != before.cycle + 1;
       const bool repeated = (repeats_are_lost &&
                              Repeats(before.sample.position_m, now.sample.position_m, rig.axes)) ||

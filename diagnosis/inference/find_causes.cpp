@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "diagnosis/inference/coloured.hpp"
 #include "diagnosis/inference/loud_fault.hpp"
 #include "diagnosis/inference/selection_steps.hpp"
 #include "diagnosis/inference/swallowed_causes.hpp"
@@ -20,11 +21,7 @@ Runs CalibratedRuns(const RecordLandscape& landscape, const CauseSelection& foun
 bool FallsBehind(const RecordLandscape& landscape, const std::vector<double>& theta,
                  const Whitener& faster) {
   constexpr double kTimes = 1.5;
-  const Whitener slower = landscape.search().WhitenerOf(landscape.RunAt(theta), 0);
-  for (std::size_t a = 0; a < landscape.rig().axes; ++a) {
-    if (faster.filter[a].front() > kTimes * slower.filter[a].front()) return true;
-  }
-  return false;
+  return TakesAway(faster, landscape.search().WhitenerOf(landscape.RunAt(theta), 0), kTimes);
 }
 
 /// Back to slower observers, which see more, as far as the model with the causes found so far does

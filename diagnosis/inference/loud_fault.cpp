@@ -12,7 +12,6 @@
 namespace levitas::diagnosis {
 namespace {
 
-constexpr double kLoud = 1.5;
 constexpr std::size_t kMostTried = 3;
 
 bool IsLoud(const std::vector<Trajectory>& runs, std::size_t axes) {

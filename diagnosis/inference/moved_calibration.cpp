@@ -55,7 +55,8 @@ bool NameOne(const RecordLandscape& landscape, const SelectionRules& rules, Caus
   const Refined before = landscape.Fit(found.causes, found.theta, 1);
   if (!before.ok) return false;
   const Judging& judging = rules.judging;
-  const double explained = std::max(0.0, before.evidence - landscape.EvidenceOf(OfExactForm(found.causes)));
+  const double explained =
+      std::max(0.0, before.evidence - landscape.EvidenceOf(OfExactForm(found.causes)));
   const double enough = judging.decisive_nat + judging.form_share * explained;
   CauseSet best;
   for (const std::size_t term : moved) {

@@ -12,7 +12,7 @@
 // Named     the best hypothesis of its effect that moves it, when evidence prefers it at all
 //           (0 nat), and the data alone refuse the file's number by decisive_nat and, beside other
 //           causes, by form_share of what they explain: a strong cause whose form is not known
-//           exactly leaves numbers of others far out.
+//           exactly leaves numbers of others far out. A hum's is known.
 // Not here  shapes of modes, which are no effect of the vocabulary.
 // Thread    blocks the caller, two threads inside.
 

@@ -239,8 +239,8 @@ double Refiner::Misfit(const std::vector<double>& theta, std::size_t whitening_o
   const auto runs = search_.Run(records_, gains_, theta);
   const Whitener whitener = MakeWhitener(runs, axes_, whitening_order);
   std::size_t values = 0;
-  // Not just their number: of innovations that swing, or belong to some rows alone, the filter leaves
-  // more than it claims.
+  // Not just their number: of innovations that swing, or belong to some rows alone, the filter
+  // leaves more than it claims.
   const double squared_sum = SquaredSum(runs, axes_, whitener, &values);
   double log_power = 0.0;
   for (const auto& filter : whitener.filter) log_power -= 2.0 * std::log(filter.front());

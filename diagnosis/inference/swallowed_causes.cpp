@@ -66,6 +66,14 @@ class FileFits {
     return made;
   }
 
+  /// The nuisances alone from the file's numbers on, by the way that causes go.
+  [[nodiscard]] JointFit Anew() const {
+    const Refined coarse = coarse_.Approach(FileNumbers(), kWhiteningOrder, kHeldPasses);
+    const Refined held =
+        fine_.Approach(coarse.ok ? coarse.theta : FileNumbers(), kWhiteningOrder, kHeldPasses);
+    return Free(held.ok ? held.theta : FileNumbers(), {});
+  }
+
   [[nodiscard]] View LineariseAt(const std::vector<double>& held) const {
     return cautious_.Linearise(few_, fast_few_, held, kWhiteningOrder, cautious_.Everything());
   }
@@ -144,48 +152,67 @@ bool AddOne(const FileFits& fits, const RecordLandscape& landscape, const Judgin
   return true;
 }
 
-/// Of all rows, under the observer of the landscape; false where the gain does not hold there.
+/// The causes with all rows, under the observer of the landscape; false where their gain does not
+/// hold there.
 bool TakeOver(RecordLandscape& landscape, const SelectionRules& rules, const JointFit& without,
               const JointFit& with, CauseSelection& found) {
+  landscape.LineariseAt(without.free.theta);
+  const Refined base = landscape.Fit({}, without.free.theta, rules.effort.passes);
+  if (!base.ok) return false;
+  const double most = landscape.MisfitOf({}, base.theta) - rules.judging.suspected_nat;
   landscape.LineariseAt(with.free.theta);
   Refined fit = landscape.Fit(with.causes, with.free.theta, rules.effort.passes);
-  if (!fit.ok || !(landscape.MisfitOf(with.causes, fit.theta) <
-                   landscape.MisfitOf({}, without.free.theta) - rules.judging.suspected_nat))
-    return false;
+  if (!fit.ok || !(landscape.MisfitOf(with.causes, fit.theta) < most)) return false;
   found.causes = with.causes;
   for (std::size_t i = 0; i < found.causes.size(); ++i) {
     fit = landscape.RefineShapeOf(with.causes, i, std::move(fit));
     landscape.TakePlace(found.causes[i]);
   }
   found.theta = fit.theta;
-  found.calibrated = without.free.theta;
+  found.calibrated = base.theta;
   found.refitted.clear();  // weighed about the calibration that hid them
   return true;
+}
+
+/// A calibration that had lost its way, and not to a cause: the one from the file takes its place,
+/// where it fits better under the observer of the landscape, too.
+void CalibrateAnew(RecordLandscape& landscape, const SelectionRules& rules, const JointFit& anew,
+                   CauseSelection& found) {
+  const double before = landscape.MisfitOf({}, found.calibrated);
+  landscape.LineariseAt(anew.free.theta);
+  const Refined fit = landscape.Fit({}, anew.free.theta, rules.effort.passes);
+  if (!fit.ok || !(landscape.MisfitOf({}, fit.theta) < before)) return;
+  found.theta = found.calibrated = fit.theta;
 }
 
 }  // namespace
 
 bool TakeSwallowedCauses(RecordLandscape& landscape, const SelectionRules& rules,
                          CauseSelection& found) {
+  const std::vector<Term>& terms = landscape.terms();
   const double tolerances = rules.judging.moved_tolerances;
-  if (!WentFar(landscape.terms(), landscape.view().problem, found.calibrated, {}, tolerances))
-    return false;
+  if (!WentFar(terms, landscape.view().problem, found.calibrated, {}, tolerances)) return false;
   const FileFits fits(landscape);
-  // Compared on the same rows and with the same observer.
-  const JointFit without = fits.Free(found.calibrated, {});
+  // Compared on the same rows and with the same observer; the better of two ways without a cause.
+  JointFit without = fits.Free(found.calibrated, {});
+  if (JointFit anew = fits.Anew(); anew.cost < without.cost) {
+    without = std::move(anew);
+    CalibrateAnew(landscape, rules, without, found);
+  }
   if (!without.free.ok) return false;
   JointFit with = without;
   with.held = fits.FileNumbers();
   while (with.causes.size() < rules.most_causes &&
-         (with.causes.empty() || WentFar(landscape.terms(), with.free.problem, with.free.theta,
-                                         with.causes, tolerances))) {
+         WentFar(terms, with.free.problem, with.free.theta, with.causes, tolerances)) {
     if (!AddOne(fits, landscape, rules.judging, with)) break;
   }
-  if (with.causes.empty()) return false;
-  const std::size_t slow = landscape.speed();
-  landscape.Observe(kSpeeds.size() - 1);
-  const bool taken = TakeOver(landscape, rules, without, with, found);
-  if (!taken) landscape.Observe(slow);
+  bool taken = false;
+  if (!with.causes.empty()) {
+    const std::size_t slow = landscape.speed();
+    landscape.Observe(kSpeeds.size() - 1);
+    taken = TakeOver(landscape, rules, without, with, found);
+    if (!taken) landscape.Observe(slow);
+  }
   landscape.LineariseAt(found.theta);
   return taken;
 }

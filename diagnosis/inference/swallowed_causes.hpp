@@ -5,17 +5,21 @@
 //           shapes alone, takes them six tolerances from the file, and no straight line leads back
 //           from there: the spring is screened as worth much, and fitted beside it.
 // When      calibration has left a number, a shape of a mode included, surely beyond
-//           moved_tolerances (moved_calibration.hpp), or a rotor that it can hardly follow.
+//           moved_tolerances (moved_calibration.hpp).
 // Method    under a fast observer the cost is smooth, and no filter takes what a slow one leaves of
 //           a lightly damped mode for coloured noise. On a few rows every effect is screened about
 //           the file's numbers; each of the first few is fitted together with the nuisances from
-//           there on, what is built being held to a fifth of its tolerance at first (calibrate.hpp).
+//           there on, what is built being held to a fifth of its tolerance at first
+//           (calibrate.hpp).
 //           While the best of them still leaves numbers far off, a further one is looked for.
+// Without   the nuisances alone go the same way: a calibration that had lost its way, and not to a
+//           cause, is replaced.
 // Taken     where innovations and all that calibration pays for its moves cost less with it than
 //           without, by suspected_nat: a model is never exact. The search then goes on with it, and
 //           drops it again where further causes explain its share, still under the fast observer:
 //           find_causes.cpp goes back to slower ones.
-// Cost      a screen and up to three calibrations of a part of the records.
+// Cost      for each cause a screen, and up to three joint fits of up to six descents; on a part of
+//           the records, and once on all of them.
 // Thread    blocks the caller, two threads inside.
 
 #include "diagnosis/inference/record_landscape.hpp"

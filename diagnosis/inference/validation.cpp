@@ -11,6 +11,10 @@
 namespace levitas::diagnosis {
 namespace {
 
+/// [squared innovations] What data cannot show is worth the rounding of their sums, which does not
+/// scatter.
+constexpr double kNothing = 1e-3;
+
 /// Runs on the validation data, compared block by block.
 class Judge {
  public:
@@ -119,7 +123,9 @@ std::optional<std::size_t> Choose(const std::vector<FitGain>& over_leader, doubl
   double most = 0.0;
   for (std::size_t i = 0; i < over_leader.size(); ++i) {
     const FitGain& gain = over_leader[i];
-    if (!std::isfinite(gain.value) || !(gain.value > deviations * gain.deviation)) continue;
+    if (!std::isfinite(gain.value) ||
+        !(gain.value > std::max(kNothing, deviations * gain.deviation)))
+      continue;
     if (gain.value <= most) continue;
     most = gain.value;
     best = i;
@@ -151,8 +157,6 @@ void JudgeOnValidation(RecordLandscape& landscape, const std::vector<Record>& va
     worth = judge.Gain(WithoutCauses(landscape, found, judge),
                        With(landscape, judge, found.causes, found.theta));
   }
-  // What the data cannot show is worth nothing but the rounding of their sums, and does not scatter.
-  constexpr double kNothing = 1e-3;
   if (worth.value >= -std::max(kNothing, deviations * worth.deviation)) return;
   found.doubt = Doubt::kValidationHarm;
   // A model that diverges on the validation data is refuted, too.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/records/recorded_rows.hpp"
 #include "diagnosis/model/linear_change.hpp"
 #include "diagnosis/model/magnet_means.hpp"
 #include "diagnosis/model/observer_scale.hpp"
@@ -24,9 +25,6 @@ struct Active {
 };
 
 constexpr std::uint64_t kStartRows = 1500;  ///< with the gain for starts
-
-/// Frames lost in a row that the model bridges; after more it starts anew.
-constexpr std::uint64_t kMostBridged = 20;
 
 double Sum(const std::vector<double>& shape, const float* modal) {
   double sum = 0.0;
@@ -327,8 +325,8 @@ Trajectory RunModel(const RigView& rig, const Record& record, const ObserverGain
   for (const auto& row : record.rows) {
     const auto lost = previous != nullptr && row.cycle > previous->cycle
                           ? row.cycle - previous->cycle - 1
-                          : kMostBridged + 1;
-    const bool continues = lost <= kMostBridged && previous->levitated;
+                          : analysis::kMostLost + 1;
+    const bool continues = lost <= analysis::kMostLost && previous->levitated;
     if (row.levitated && continues) walk.Bridge(*previous, lost);
     if (row.levitated) {
       const bool lost_one = continues && repeats_are_lost &&

@@ -164,8 +164,13 @@ class Page:
             except LoadedAgain:
                 return False
 
-        until(holds, expression,
-              lambda: "\n".join([self.value("document.body.innerText"), *self.problems()]))
+        def shown():
+            try:
+                return self.value("document.body.innerText")
+            except LoadedAgain:
+                return "(it is being loaded again)"
+
+        until(holds, expression, lambda: "\n".join([shown(), *self.problems()]))
 
     def press(self, key):
         for kind in ("keyDown", "keyUp"):

@@ -119,7 +119,7 @@ class ThePage(unittest.TestCase):
         page.call("Page.navigate", url=rig.url)
         page.until("Number(sessionStorage.loads) > 1")
         page.refuse()
-        page.until(f"{MODE} == 'off'")
+        page.until("document.getElementById('mode')?.textContent == 'off'")  # none while it loads
 
     def test_serves_two_viewers_the_same_run(self):
         rig, page = self.rig_and_page()

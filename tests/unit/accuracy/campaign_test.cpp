@@ -209,7 +209,8 @@ TEST(Campaign, IsNotStableWhenTheSupervisorTrips) {
   plan.limit_m = 1.0;
   const Campaign campaign = Record(truth, plan);
   EXPECT_FALSE(campaign.stable);
-  EXPECT_LT(campaign.records.size(), 4U);
+  // It stands still, and is lost on its way to the speed or at it.
+  EXPECT_EQ(campaign.records.size(), 2U);
 }
 
 TEST(Campaign, KnowsWhetherARigIsLifted) {

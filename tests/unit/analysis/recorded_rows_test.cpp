@@ -48,6 +48,19 @@ TEST(FindAccelerations, IsNotTheScatterOfTheTachometer) {
   for (std::size_t n = 300; n < 1700; n += 100) EXPECT_NEAR(Acceleration(rows, n), 283.0, 8.0);
 }
 
+// A session has a row of the cycle before where a frame was lost.
+TEST(FindAccelerations, GoesOnOverALostFrame) {
+  auto rows = RowsAt([](double t) { return 50.0 + 283.0 * t; });
+  for (std::size_t n = 100; n < kRows; n += 100) {
+    rows[n].cycle = rows[n - 1].cycle;
+    rows[n].sample.speed_rad_per_s = rows[n - 1].sample.speed_rad_per_s;
+  }
+  Random random(7);
+  for (RecordedRow& row : rows) row.sample.speed_rad_per_s += 0.05 * random.Normal();
+  FindAccelerations(kPeriodS, rows);
+  for (std::size_t n = 300; n < 1700; ++n) EXPECT_NEAR(Acceleration(rows, n), 283.0, 9.0) << n;
+}
+
 // Speeds on both sides of a pause say nothing of the acceleration.
 TEST(FindAccelerations, DoesNotReachAcrossAGap) {
   auto rows = RowsAt([](double t) { return t < 0.1 ? 0.0 : 300.0; });
