@@ -169,7 +169,6 @@ bool TakeOver(RecordLandscape& landscape, const SelectionRules& rules, const Joi
     landscape.TakePlace(found.causes[i]);
   }
   found.theta = fit.theta;
-  found.calibrated = base.theta;
   found.refitted.clear();  // weighed about the calibration that hid them
   return true;
 }
