@@ -67,9 +67,9 @@ void FindCauses(RecordLandscape& landscape, const SelectionRules& rules, CauseSe
       landscape.Observe(slowest);
       landscape.LineariseAt(found.theta);
     }
-    if (found.causes.empty()) found.calibrated_runs = landscape.view().runs;
     const bool swallowed = stage == 0 && !rules.effort.first_cause_only &&
                            TakeSwallowedCauses(landscape, rules, found);
+    if (found.causes.empty()) found.calibrated_runs = landscape.view().runs;
     if (swallowed) found.calibrated_runs = CalibratedRuns(landscape, found);
     bool added =
         (found.causes.size() < rules.most_causes && AddCause(landscape, rules, share, found)) ||
