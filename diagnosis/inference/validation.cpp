@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "diagnosis/inference/validation_doubt.hpp"
 #include "diagnosis/model/divergence.hpp"
 
 namespace levitas::diagnosis {
@@ -157,12 +158,10 @@ void JudgeOnValidation(RecordLandscape& landscape, const std::vector<Record>& va
     worth = judge.Gain(WithoutCauses(landscape, found, judge),
                        With(landscape, judge, found.causes, found.theta));
   }
-  if (worth.value >= -std::max(kNothing, deviations * worth.deviation)) return;
-  found.doubt = Doubt::kValidationHarm;
-  // A model that diverges on the validation data is refuted, too.
-  found.probability = std::isfinite(worth.value)
-                          ? 0.5 * std::erfc(-worth.value / (std::sqrt(2.0) * worth.deviation))
-                          : 0.0;
+  found.doubt = DoubtOf(worth.value, worth.deviation, deviations);
+  if (found.doubt != Doubt::kNothing) {
+    found.probability = ChanceOfGain(worth.value, worth.deviation);
+  }
 }
 
 }  // namespace levitas::diagnosis

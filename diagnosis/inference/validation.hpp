@@ -17,8 +17,9 @@
 //            causes stand for are those of the rig file: a fault that calibration had absorbed is
 //            worth what calibration gained by it.
 // Refuted    a set that loses there by more than `gain_deviations` of the scatter: it is suspected,
-//            not named. Validation data that cannot show a cause (no test signal, for a delay)
-//            neither confirm nor refute it.
+//            not named. So is one that they leave open, though they could show it
+//            (validation_doubt.hpp). Data that cannot (no test signal, for a delay) neither confirm
+//            nor refute it.
 // Without    validation data of the user contenders are ties (ranking.hpp), and nothing is doubted.
 // Thread     Choose: any; pure. The rest blocks the caller, two threads inside.
 

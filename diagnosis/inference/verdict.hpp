@@ -31,6 +31,7 @@ enum class Doubt {
   kNothing,
   kWeakEvidence,    ///< more likely than none, but not decisive
   kMovedNumber,     ///< a calibrated number is outside its tolerance by more than chance
+  kUnconfirmed,     ///< decisive there, and the user's validation data leave it open
   kValidationHarm,  ///< decisive on the fitted records, refuted by the user's validation data
   kResidualIsLeft,  ///< far ahead of all others, but a residual is left that it does not explain
 };

@@ -24,6 +24,9 @@ void AddCoilCauses(std::vector<Cause>& causes) {
   AddCause("force", {kForceKnee}, causes);
   AddCause("force and inductance", {kForceKnee, kIronInductance}, causes);
   AddCause("both coils", {kDeadBand}, causes);
+  AddCause("upper coil", {kCommandUpper}, causes);
+  AddCause("lower coil", {kCommandLower}, causes);
+  AddCause("both coils", {kCommandUpper, kCommandLower}, causes);
   AddCause("both coils", {kDriveCurve}, causes);
   AddCause("both coils", {kHeating}, causes);
   AddCause("both coils", {kMotionEmf}, causes);
@@ -74,7 +77,7 @@ constexpr std::array kGroups{
     Group{"displacement_stiffness", "coupling_stiffness", "sensor_gain", "static_load", ""},
     Group{"extra_delay", "current_sensor_bandwidth", "eddy_current", "", ""},
     Group{"inductance_profile", "coil_inductance", "magnetic_saturation", "", ""},
-    Group{"voltage_drop", "drive_nonlinearity", "supply_voltage", "", ""},
+    Group{"voltage_drop", "command_offset", "drive_nonlinearity", "supply_voltage", ""},
     Group{"viscous_damping", "dry_friction", "sensor_bandwidth", "", ""}};
 
 bool Has(const Group& group, const std::string& effect) {

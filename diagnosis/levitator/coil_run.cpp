@@ -8,13 +8,14 @@ namespace {
 
 /// One coil's law with its values worked out.
 struct CoilLaw {
-  double supply{}, dead_band_a{}, curvature{}, offset_a{}, full_a{};
+  double supply{}, command_a{}, dead_band_a{}, curvature{}, offset_a{}, full_a{};
   double resistance{}, heating_1_per_s{};
   double inductance_s{}, per_gap_1_per_m{}, iron_1_per_a2{};
   double emf_1_per_m{};
   double gap_m{}, gap_sign{};
 
-  [[nodiscard]] double Drive(double asked_a) const {
+  [[nodiscard]] double Drive(double commanded_a) const {
+    const double asked_a = commanded_a + command_a;
     const double u = std::max(0.0, asked_a - dead_band_a);
     return supply * (u + curvature * u * (1.0 - asked_a / full_a)) + offset_a;
   }
@@ -41,6 +42,7 @@ CoilLaw LawOf(const NominalRig& rig, const Theta& theta, std::size_t record, std
   CoilLaw law;
   law.full_a = rig.full_a;
   law.supply = rig.steady * (1.0 + theta[kSupply]) * (1.0 + away * theta[kAwaySupply]);
+  law.command_a = theta[coil == 0 ? kCommandUpper : kCommandLower];
   law.dead_band_a = theta[kDeadBand];
   law.curvature = theta[kDriveCurve];
   law.offset_a = rig.offset_a;

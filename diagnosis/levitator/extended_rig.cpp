@@ -52,6 +52,7 @@ std::vector<effect::EffectConfig> Entries(const RigNumbers& rig, const Theta& t,
     const auto entry = diagnosis::MakeEntry(id, diagnosis::AtAxis(rig, 0), rig.axes(), values);
     if (entry) out.push_back(*entry);
   };
+  add(t[kCommandUpper] != 0.0, Id::kCommandOffset, {{"offset_a", t[kCommandUpper]}});
   add(t[kForceKnee] > 0.0, Id::kMagneticSaturation,
       {{"knee_a", 1.0 / std::sqrt(std::max(1e-9, t[kForceKnee]))}, {"exponent", 2.0}});
   add(t[kForceLag] > 0.0, Id::kEddyCurrent, {{"tau_us", 1e6 * t[kForceLag]}});
@@ -69,8 +70,8 @@ std::vector<effect::EffectConfig> Entries(const RigNumbers& rig, const Theta& t,
 }
 
 bool InTheModel(std::size_t i) {
-  constexpr std::array kMissing{kEddyShare, kMutual,        kProbeGain, kProbeOffset,
-                                kProbeLag,  kForceExponent, kDamping,   kDryFriction};
+  constexpr std::array kMissing{kCommandLower, kEddyShare,     kMutual,  kProbeGain,  kProbeOffset,
+                                kProbeLag,     kForceExponent, kDamping, kDryFriction};
   return std::find(kMissing.begin(), kMissing.end(), i) == kMissing.end();
 }
 

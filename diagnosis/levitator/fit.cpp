@@ -15,21 +15,17 @@ namespace {
 
 using Index = Eigen::Index;
 
-double Penalty(const Freedom& freedom, const Theta& theta) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < freedom.active.size(); ++i) {
-    const double z = theta[freedom.active[i]] / freedom.deviation[static_cast<Index>(i)];
-    sum += z * z;
-  }
-  return sum;
-}
-
 Eigen::VectorXd Scaled(const Freedom& freedom, const Theta& theta) {
   Eigen::VectorXd z(freedom.deviation.size());
   for (std::size_t i = 0; i < freedom.active.size(); ++i) {
     z[static_cast<Index>(i)] = theta[freedom.active[i]];
   }
   return z.cwiseQuotient(freedom.deviation);
+}
+
+double Penalty(const Freedom& freedom, const Theta& theta) {
+  const Eigen::VectorXd z = Scaled(freedom, theta);
+  return z.dot(freedom.precision * z);
 }
 
 /// Half log determinant of what the data and the prior know together.
@@ -39,7 +35,8 @@ double HalfLogDeterminant(const Eigen::LLT<Eigen::MatrixXd>& llt) {
 
 double PriorOf(const Freedom& freedom) {
   // What cannot be negative has half the volume.
-  return freedom.log_prior + static_cast<double>(freedom.one_sided) * std::log(2.0);
+  return freedom.log_prior + static_cast<double>(freedom.one_sided) * std::log(2.0) +
+         HalfLogDeterminant(Eigen::LLT<Eigen::MatrixXd>(freedom.precision));
 }
 
 /// Normal equations in units of the priors, the priors added as residuals.
@@ -47,8 +44,8 @@ numerics::NormalEquations WithPriors(const Sums& sums, const Freedom& freedom,
                                      const Eigen::VectorXd& z) {
   const auto scale = freedom.deviation.asDiagonal();
   numerics::NormalEquations equations{scale * sums.jtj * scale, scale * sums.jte};
-  equations.matrix.diagonal().array() += 1.0;
-  equations.gradient += z;
+  equations.matrix += freedom.precision;
+  equations.gradient += freedom.precision * z;
   return equations;
 }
 
@@ -106,6 +103,29 @@ class PenalisedMisfit {
   Sums sums_;
 };
 
+/// Prior of a healthy rig: of independent tolerances, or as healthy records left it.
+Eigen::MatrixXd HealthyCovariance(std::size_t all, const Eigen::MatrixXd& known) {
+  Eigen::VectorXd variance(static_cast<Index>(all));
+  for (std::size_t i = 0; i < all; ++i) {
+    variance[static_cast<Index>(i)] = ToleranceOf(i) * ToleranceOf(i);
+  }
+  Eigen::MatrixXd covariance = variance.asDiagonal();
+  if (known.size() > 0) covariance.topLeftCorner(kParameters, kParameters) = known;
+  return covariance;
+}
+
+/// Inverse covariance of what is active, in units of its deviations.
+Eigen::MatrixXd PrecisionOf(const Eigen::MatrixXd& covariance, const Freedom& freedom) {
+  const std::vector<Index> pick(freedom.active.begin(), freedom.active.end());
+  const Eigen::MatrixXd identity =
+      Eigen::MatrixXd::Identity(freedom.deviation.size(), freedom.deviation.size());
+  const Eigen::MatrixXd chosen = covariance(pick, pick);
+  if (chosen.isDiagonal(0.0)) return identity;
+  const auto scale = freedom.deviation.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd correlation = scale * chosen * scale;
+  return Eigen::LLT<Eigen::MatrixXd>(correlation).solve(identity);
+}
+
 /// A linearisation costs a run per parameter: six damped steps are tried on one. The search ends
 /// with a step that gains half a nat, a tenth of what decides between causes, or a millionth of the
 /// cost, which is far less while the model is still wrong by 1e5 nat.
@@ -120,14 +140,15 @@ numerics::LevenbergMarquardtOptions Options(int most_steps) {
 
 }  // namespace
 
-Freedom FreedomOf(const CauseSet& causes, std::size_t records, const Theta& origin) {
+Freedom FreedomOf(const CauseSet& causes, std::size_t records, const Theta& origin,
+                  const Eigen::MatrixXd& known) {
   const std::size_t all = kParameters + records * kOwnParameters;
-  std::vector<double> variance(all);
+  Eigen::MatrixXd covariance = HealthyCovariance(all, known);
   std::vector<double> most(all);
   std::vector<double> least(all);
   for (std::size_t i = 0; i < all; ++i) {
-    variance[i] = ToleranceOf(i) * ToleranceOf(i);
-    most[i] = kFarthest * ToleranceOf(i);
+    const auto at = static_cast<Index>(i);
+    most[i] = kFarthest * std::sqrt(covariance(at, at));
     least[i] = std::max(LeastOf(i, origin), -most[i]);
   }
   Freedom freedom;
@@ -135,14 +156,14 @@ Freedom FreedomOf(const CauseSet& causes, std::size_t records, const Theta& orig
     const Cause& cause = Causes()[c];
     freedom.log_prior += cause.log_prior;
     for (const std::size_t i : cause.moves) {
-      variance[i] += WideOf(i) * WideOf(i);
+      covariance(static_cast<Index>(i), static_cast<Index>(i)) += WideOf(i) * WideOf(i);
       most[i] = std::numeric_limits<double>::max();
       least[i] = LeastOf(i, origin);
       if (ToleranceOf(i) == 0.0 && least[i] == 0.0) ++freedom.one_sided;
     }
   }
   for (std::size_t i = 0; i < all; ++i) {
-    if (variance[i] > 0.0) freedom.active.push_back(i);
+    if (covariance(static_cast<Index>(i), static_cast<Index>(i)) > 0.0) freedom.active.push_back(i);
   }
   const auto count = static_cast<Index>(freedom.active.size());
   freedom.deviation.resize(count);
@@ -150,16 +171,18 @@ Freedom FreedomOf(const CauseSet& causes, std::size_t records, const Theta& orig
   freedom.most.resize(count);
   for (Index at = 0; at < count; ++at) {
     const std::size_t i = freedom.active[static_cast<std::size_t>(at)];
-    freedom.deviation[at] = std::sqrt(variance[i]);
+    freedom.deviation[at] = std::sqrt(covariance(static_cast<Index>(i), static_cast<Index>(i)));
     freedom.least[at] = least[i];
     freedom.most[at] = most[i];
   }
+  freedom.precision = PrecisionOf(covariance, freedom);
   return freedom;
 }
 
 Fitted Fitter::Fit(const CauseSet& causes, const Theta& start, const Filters& filters,
                    int steps) const {
-  const Freedom freedom = FreedomOf(causes, misfit_.series().size(), misfit_.rig().origin);
+  const Freedom freedom =
+      FreedomOf(causes, misfit_.series().size(), misfit_.rig().origin, misfit_.rig().known);
   Fitted out;
   out.theta = Zeros(misfit_.series().size());
   for (std::size_t i = 0; i < freedom.active.size(); ++i) {
@@ -180,9 +203,16 @@ Fitted Fitter::Fit(const CauseSet& causes, const Theta& start, const Filters& fi
   const Eigen::MatrixXd covariance =
       llt.solve(Eigen::MatrixXd::Identity(normal.matrix.rows(), normal.matrix.cols()));
   out.deviation = Zeros(misfit_.series().size());
+  out.covariance = Eigen::MatrixXd::Zero(kParameters, kParameters);
   for (std::size_t i = 0; i < freedom.active.size(); ++i) {
     const auto at = static_cast<Index>(i);
     out.deviation[freedom.active[i]] = freedom.deviation[at] * std::sqrt(covariance(at, at));
+    for (std::size_t k = 0; k < freedom.active.size() && freedom.active[k] < kParameters; ++k) {
+      if (freedom.active[i] >= kParameters) continue;
+      const auto of = static_cast<Index>(k);
+      out.covariance(static_cast<Index>(freedom.active[i]), static_cast<Index>(freedom.active[k])) =
+          freedom.deviation[at] * freedom.deviation[of] * covariance(at, of);
+    }
   }
   return out;
 }
@@ -206,7 +236,7 @@ std::vector<double> Fitter::Screen(const CauseSet& causes, const Fitted& at,
   for (std::size_t i = 0; i < everything.size(); ++i) everything[i] = i;
   const Sums sums = misfit_.Linearise(at.theta, filters, everything);
   const auto evidence = [&](const CauseSet& set, bool& possible) {
-    const Freedom freedom = FreedomOf(set, records, misfit_.rig().origin);
+    const Freedom freedom = FreedomOf(set, records, misfit_.rig().origin, misfit_.rig().known);
     const std::vector<Index> pick(freedom.active.begin(), freedom.active.end());
     const Sums part{sums.jtj(pick, pick), sums.jte(pick), sums.ete, sums.values};
     const Eigen::VectorXd z = Scaled(freedom, at.theta);
@@ -224,7 +254,7 @@ std::vector<double> Fitter::Screen(const CauseSet& causes, const Fitted& at,
         possible = false;
       }
     }
-    const double predicted = sums.ete + z.squaredNorm() + step.dot(normal.gradient);
+    const double predicted = sums.ete + z.dot(freedom.precision * z) + step.dot(normal.gradient);
     return -0.5 * predicted - HalfLogDeterminant(llt) + PriorOf(freedom);
   };
   bool possible = true;

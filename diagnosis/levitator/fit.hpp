@@ -20,7 +20,8 @@ using CauseSet = std::vector<std::size_t>;
 
 struct Fitted {
   Theta theta;
-  Theta deviation;  ///< posterior, zero for what was not fitted
+  Theta deviation;             ///< posterior, zero for what was not fitted
+  Eigen::MatrixXd covariance;  ///< posterior of the common values
   double evidence{};
   double squared_sum{};
 };
@@ -33,13 +34,16 @@ inline constexpr double kFarthest = 2.0;
 struct Freedom {
   std::vector<std::size_t> active;
   Eigen::VectorXd deviation;
+  /// Of the prior, in units of its deviations: the identity where values are independent.
+  Eigen::MatrixXd precision;
   Eigen::VectorXd least, most;
   double log_prior{};  ///< of the places
   std::size_t one_sided{};
 };
 
+/// `known`: NominalRig::known, which takes the place of the table's tolerances.
 [[nodiscard]] Freedom FreedomOf(const CauseSet& causes, std::size_t records,
-                                const Theta& origin = Zeros(0));
+                                const Theta& origin = Zeros(0), const Eigen::MatrixXd& known = {});
 
 class Fitter {
  public:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/inference/calibrate.hpp"
 #include "diagnosis/levitator/build_report.hpp"
 #include "diagnosis/records/load.hpp"
 #include "diagnosis/records/same_rows.hpp"
@@ -106,12 +107,25 @@ std::vector<ValidationRun> JudgeAll(const NominalRig& rig, const std::vector<Ser
   return runs;
 }
 
-/// Whatever the file gets wrong of these records is how the rig is: searches begin there.
-void LearnFromHealthy(const std::vector<Series>& healthy, const SearchSettings& settings,
+/// Whatever the file gets wrong of these records is how the rig is: searches begin there, and what
+/// is left free is what the records leave open and what changes from day to day. Their numbers are
+/// free together: of supply and resistance they know the ratio far better than either.
+void LearnFromHealthy(const std::vector<Series>& healthy, SearchSettings settings,
                       NominalRig& rig) {
   const std::vector<Series> stretches = Stretches(healthy);
+  settings.form_share = 0.0;  // the form of a law that is wrong there is known here
   const Found found = Search(Misfit(rig, stretches), nullptr, settings);
-  rig.origin = ComposedWith(rig.origin, SharedPart(found.extended.theta, 0));
+  const Theta shared = SharedPart(found.extended.theta, 1);
+  rig.origin = ComposedWith(rig.origin, shared);
+  rig.origin[kResistance] =
+      ComposedWith(kResistance, rig.origin[kResistance], shared[Own(0, kOwnResistance)]);
+  rig.origin[kSensorOffset] += shared[Own(0, kOwnOffset)];
+  rig.origin.resize(kParameters);
+  rig.known = found.extended.covariance;
+  for (std::size_t i = 0; i < kParameters; ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    rig.known(at, at) += std::pow(diagnosis::kDaily * ToleranceOf(i), 2);
+  }
 }
 
 }  // namespace
@@ -130,6 +144,7 @@ LevitatorResult Diagnose(const configuration::RigFile& rig, const std::vector<Se
     const double seconds = whole.time_s.back() - whole.time_s.front();
     data.front() = Stretch(whole, 0.6 * seconds, 0.0);
     validation.push_back(Stretch(whole, 0.3 * seconds, 1.0));
+    search.own_validation = true;
   }
   const std::vector<Series> stretches = Stretches(data);
   const Misfit misfit(nominal, stretches);

@@ -15,6 +15,8 @@ bool BelongsTo(std::size_t index, std::size_t record) {
   return !IsOwn(index) || (index - kParameters) / kOwnParameters == record;
 }
 
+constexpr double kBlockS = 0.5;
+
 /// Rows with enough uninterrupted past for the filter.
 template <class Visit>
 void ForCounted(const Series& series, Visit visit) {
@@ -96,6 +98,24 @@ double Misfit::SquaredSum(const Theta& theta, const Filters& filters) const {
   double sum = 0.0;
   for (const double one : sums) sum += one;
   return sum;
+}
+
+std::vector<double> Misfit::BlockSums(const Theta& theta, const Filters& filters) const {
+  const auto rows = static_cast<Eigen::Index>(std::max(1.0, kBlockS / rig_.period_s));
+  std::vector<double> sums;
+  for (std::size_t record = 0; record < series_.size(); ++record) {
+    const Raw raw = RawOf(theta, record);
+    const Eigen::VectorXd values = Whitened(raw, record, filters);
+    const auto channels = static_cast<Eigen::Index>(std::count_if(
+        raw.begin(), raw.end(), [](const auto& channel) { return !channel.empty(); }));
+    const Eigen::Index count = values.size() / channels;
+    const std::size_t first = sums.size();
+    sums.resize(first + static_cast<std::size_t>((count + rows - 1) / rows), 0.0);
+    for (Eigen::Index i = 0; i < count * channels; ++i) {
+      sums[first + static_cast<std::size_t>(i % count / rows)] += values[i] * values[i];
+    }
+  }
+  return sums;
 }
 
 Sums Misfit::LineariseOne(const Theta& theta, const Filters& filters,

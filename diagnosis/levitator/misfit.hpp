@@ -38,6 +38,8 @@ class Misfit {
   /// By what the model leaves at theta; `memory` 0 only scales.
   [[nodiscard]] Filters Whiten(const Theta& theta, std::size_t memory) const;
   [[nodiscard]] double SquaredSum(const Theta& theta, const Filters& filters) const;
+  /// The same over blocks of half a second of what counts, all channels of a block together.
+  [[nodiscard]] std::vector<double> BlockSums(const Theta& theta, const Filters& filters) const;
   /// Sums over all records, for the parameters in `active`.
   [[nodiscard]] Sums Linearise(const Theta& theta, const Filters& filters,
                                const std::vector<std::size_t>& active) const;
@@ -47,6 +49,7 @@ class Misfit {
 
  private:
   [[nodiscard]] Raw RawOf(const Theta& theta, std::size_t record) const;
+  /// What counts, channel by channel.
   [[nodiscard]] Eigen::VectorXd Whitened(const Raw& raw, std::size_t record,
                                          const Filters& filters) const;
   [[nodiscard]] Sums LineariseOne(const Theta& theta, const Filters& filters,

@@ -1,6 +1,8 @@
 #pragma once
 // The numbers of the rig file that the models need. Thread: plain data.
 
+#include <Eigen/Core>
+
 #include "configuration/rig_file.hpp"
 #include "diagnosis/levitator/origin.hpp"
 
@@ -17,6 +19,8 @@ struct NominalRig {
   double mass_kg{}, gravity_m_per_s2{};
   double noise_m{};         ///< of a reading, quantisation included
   Theta origin = Zeros(0);  ///< what is known to differ from all of these
+  /// Covariance of the common values about the origin, as healthy records leave it; empty without.
+  Eigen::MatrixXd known;
 };
 
 [[nodiscard]] inline NominalRig NominalOf(const configuration::RigFile& file) {

@@ -116,8 +116,20 @@ struct MovedBy {
     Refuse();
   }
 
-  // Keys of the coil stand for the amplifier; a ball has neither housings nor wheels.
-  Theta operator()(effect::AmplifierId /*id*/) const { Refuse(); }
+  Theta operator()(effect::AmplifierId id) const {
+    using effect::AmplifierId;
+    switch (id) {
+      case AmplifierId::kCommandOffset:
+        return One(kCommandUpper, v(0));
+      case AmplifierId::kCurrentGain:
+      case AmplifierId::kAmplifierBandwidth:
+      case AmplifierId::kAmplifierSlew:
+        break;  // keys of the coil stand for them
+    }
+    Refuse();
+  }
+
+  // A ball has neither housings nor wheels.
   Theta operator()(effect::SupportId /*id*/) const { Refuse(); }
   Theta operator()(effect::GearId /*id*/) const { Refuse(); }
 

@@ -23,6 +23,8 @@ enum Parameter : std::size_t {
   kProfile,
   kIronInductance,
   kDeadBand,
+  kCommandUpper,
+  kCommandLower,
   kDriveCurve,
   kHeating,
   kMotionEmf,

@@ -55,6 +55,8 @@ FileKey KeyOf(const configuration::RigFile& rig, std::size_t i) {
     case kProfile:
     case kIronInductance:
     case kDeadBand:
+    case kCommandUpper:
+    case kCommandLower:
     case kDriveCurve:
     case kHeating:
     case kMotionEmf:

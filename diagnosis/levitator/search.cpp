@@ -12,6 +12,7 @@ namespace {
 constexpr int kSteps = 8;
 constexpr int kScreenSteps = 4;
 constexpr std::size_t kRefitted = 5;
+constexpr double kSame = 0.1;  ///< [nat] what two fits of the same minimum may differ by
 
 CauseSet Without(const CauseSet& set, std::size_t cause) {
   CauseSet rest;
@@ -29,6 +30,12 @@ CauseSet With(CauseSet set, std::size_t cause) {
 bool SameEffect(const CauseSet& set, std::size_t cause) {
   return std::any_of(set.begin(), set.end(),
                      [&](std::size_t c) { return Causes()[c].effect == Causes()[cause].effect; });
+}
+
+/// A variant of the same effect that moves fewer values.
+bool IsPlainer(std::size_t cause, std::size_t than) {
+  return Causes()[cause].effect == Causes()[than].effect &&
+         Causes()[cause].moves.size() < Causes()[than].moves.size();
 }
 
 /// The best few by their screened gain, of effects that are not in the set.
@@ -66,7 +73,9 @@ class ForwardSelection {
     for (const std::size_t c : Nearest(gain, set_, kRefitted)) {
       const CauseSet with = With(set_, c);
       Fitted fitted = fitter_.Fit(with, now_.theta, filters_, kScreenSteps);
-      if (fitted.evidence <= best) continue;
+      // What no record shows adds nothing: of two such variants the one that moves less.
+      const bool plainer = !chosen.empty() && IsPlainer(c, chosen.back());
+      if (fitted.evidence <= (plainer ? best - kSame : best)) continue;
       best = fitted.evidence;
       found = std::move(fitted);
       chosen = with;
@@ -75,7 +84,7 @@ class ForwardSelection {
     Fitted settled = fitter_.Fit(chosen, found.theta, filters_, kSteps);
     if (settled.evidence > best) found = std::move(settled);
     const double gained = found.evidence - now_.evidence;
-    if (!(gained > std::max(diagnosis::kDecisive, kForm * explained_))) return false;
+    if (!(gained > std::max(diagnosis::kDecisive, settings_.form_share * explained_))) return false;
     explained_ += gained;
     now_ = std::move(found);
     set_ = chosen;
@@ -97,6 +106,11 @@ class ForwardSelection {
         break;
       }
     }
+  }
+
+  void Become(const CauseSet& set, Fitted now) {
+    set_ = set;
+    now_ = std::move(now);
   }
 
   [[nodiscard]] const CauseSet& set() const { return set_; }
@@ -122,9 +136,32 @@ class ForwardSelection {
 double ValidationEvidence(const Misfit* validation, const Filters& filters, const Theta& with,
                           const Theta& without) {
   if (validation == nullptr) return std::numeric_limits<double>::quiet_NaN();
-  const std::size_t records = validation->series().size();
-  return 0.5 * (validation->SquaredSum(SharedPart(without, records), filters) -
-                validation->SquaredSum(SharedPart(with, records), filters));
+  return GainOn(*validation, filters, with, without).value;
+}
+
+/// Drops causes that validation data refute, the one that loses most first; not the last one where
+/// the data are the user's: that they refute it is worth saying.
+void DropRefuted(const Misfit& validation, std::size_t kept, ForwardSelection& selection) {
+  while (selection.set().size() > kept) {
+    double least = 0.0;
+    CauseSet rest;
+    Fitted fitted;
+    bool refuted = false;
+    for (const std::size_t c : selection.set()) {
+      const CauseSet others = Without(selection.set(), c);
+      Fitted without =
+          selection.fitter().Fit(others, selection.now().theta, selection.filters(), kSteps);
+      const double gain =
+          GainOn(validation, selection.filters(), selection.now().theta, without.theta).value;
+      if (gain >= least) continue;
+      refuted = true;
+      least = gain;
+      rest = others;
+      fitted = std::move(without);
+    }
+    if (!refuted) return;
+    selection.Become(rest, std::move(fitted));
+  }
 }
 
 /// Keeps of every effect what comes nearest to the cause in whose place it stands.
@@ -203,6 +240,22 @@ std::vector<Score> Rank(const ForwardSelection& selection, const Misfit* validat
 
 }  // namespace
 
+ValidationGain GainOn(const Misfit& validation, const Filters& filters, const Theta& with,
+                      const Theta& without) {
+  const std::size_t records = validation.series().size();
+  const std::vector<double> before = validation.BlockSums(SharedPart(without, records), filters);
+  const std::vector<double> after = validation.BlockSums(SharedPart(with, records), filters);
+  const auto blocks = static_cast<double>(before.size());
+  double sum = 0.0;
+  double squared = 0.0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const double gain = 0.5 * (before[i] - after[i]);
+    sum += gain;
+    squared += gain * gain;
+  }
+  return {sum, std::sqrt(std::max(0.0, squared - sum * sum / std::max(1.0, blocks)))};
+}
+
 Theta SharedPart(const Theta& theta, std::size_t records) {
   Theta out = Zeros(records);
   const std::size_t from = (theta.size() - kParameters) / kOwnParameters;
@@ -222,12 +275,20 @@ Found Search(const Misfit& data, const Misfit* validation, const SearchSettings&
   Found found;
   found.calibrated = selection.now();
   while (selection.set().size() < settings.most_causes && selection.Forward()) selection.Backward();
+  if (validation != nullptr) {
+    DropRefuted(*validation, settings.own_validation ? 0 : 1, selection);
+  }
   if (settings.progress) settings.progress(0.75, "ranking");
   found.scores = Rank(selection, validation, found.causes);
   found.extended = selection.now();
   found.filters = selection.filters();
   const Fitted bare =
       selection.fitter().Fit({}, found.calibrated.theta, selection.filters(), kScreenSteps);
+  found.judged = validation != nullptr;
+  if (found.judged) {
+    found.validation =
+        GainOn(*validation, found.filters, found.extended.theta, found.calibrated.theta);
+  }
   found.evidence = found.extended.evidence - bare.evidence;
   if (settings.progress) settings.progress(1.0, "done");
   return found;

@@ -7,7 +7,9 @@
 //            re-estimated after every acceptance.
 // Score      nat that a cause adds to all others; of one that was not named, what it would add in
 //            place of the named one it does most for.
-// Validation the same gain in likelihood on records that were not fitted, where there are any.
+// Validation the same gain in likelihood on records that were not fitted, where there are any. A
+//            further cause that loses there is dropped: what a wrong first cause leaves is taken
+//            up by such a chain.
 // Thread     blocks the caller, two threads inside.
 
 #include <functional>
@@ -22,6 +24,12 @@ inline constexpr double kForm = 0.001;  ///< share of the evidence that a law's 
 
 /// Causes within this share of a cause's evidence are a tie: force laws are not known better.
 inline constexpr double kFormOfTie = 0.005;
+
+/// [nat] On records that were not fitted; the deviation from the scatter of blocks.
+struct ValidationGain {
+  double value{};
+  double deviation{};
+};
 
 struct Score {
   std::size_t cause{};  ///< index into Causes()
@@ -40,15 +48,24 @@ struct Found {
   Filters filters;            ///< of the extended model
   std::vector<Score> scores;  ///< best variant of every effect, named ones first
   double evidence{};          ///< [nat] of all causes together
+  bool judged{};              ///< there were such records
+  ValidationGain validation;  ///< of all causes together on them
 };
 
 struct SearchSettings {
   std::size_t most_causes{10};
+  double form_share{kForm};
+  /// Validation data are a part of the records themselves: what loses there is no cause at all.
+  bool own_validation{false};
   std::function<void(double, const std::string&)> progress;
 };
 
 [[nodiscard]] Found Search(const Misfit& data, const Misfit* validation,
                            const SearchSettings& settings);
+
+/// What `with` explains beyond `without` of records that neither was fitted to.
+[[nodiscard]] ValidationGain GainOn(const Misfit& validation, const Filters& filters,
+                                    const Theta& with, const Theta& without);
 
 /// Parameters of a fit for validation records: of the per-record parameters, the mean.
 [[nodiscard]] Theta SharedPart(const Theta& theta, std::size_t records);

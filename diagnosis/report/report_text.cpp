@@ -171,6 +171,11 @@ std::string SuspicionSentence(const DiagnosisReport& report) {
           "Calibration moved this number further from the rig file than chance would in all but "
           "{:.2g} % of healthy rigs: either it changed, or the file or its tolerance is wrong.",
           100.0 - percent);
+    case Doubt::kUnconfirmed:
+      return fmt::format(
+          "Its {:.0f} nat on the fitted data are decisive, but the validation data do not confirm "
+          "it: what the model foretells of them changes by less than chance.",
+          OwnEvidence(report));
     case Doubt::kValidationHarm:
       return fmt::format(
           "Its {:.0f} nat on the fitted data are decisive, but the validation data refute it: "
@@ -237,7 +242,8 @@ std::string SeparatingExperiment(const DiagnosisReport& report) {
     return "the same with another speed and another bias current: the change of the residual "
            "shows whether it belongs to the rotation, the magnets or neither";
   }
-  if (report.doubt == Doubt::kValidationHarm) return ValidationExperiment(report);
+  if (report.doubt == Doubt::kValidationHarm || report.doubt == Doubt::kUnconfirmed)
+    return ValidationExperiment(report);
   if (report.doubt == Doubt::kMovedNumber) {
     return "records of the healthy rig (--healthy), or this number measured by itself: the rig "
            "file may be wrong";

@@ -17,6 +17,7 @@ struct Truth {
   double delay_samples{0.0};
   double supply{1.0}, resistance{1.0}, inductance{1.0}, profile{1.0};
   double dead_band_a{0.0}, heating_1_per_s{0.0}, motion_emf{0.0};
+  double command_a{0.0};  ///< of the upper coil
   double eddy{0.0}, mutual{0.0}, away_supply{1.0};
   double probe_gain{1.0}, probe_offset_a{0.0};
   double force{1.0}, stiffness{1.0}, knee_a{1e3}, flux_lag_s{1e-6};
@@ -53,7 +54,8 @@ constexpr std::array kKnobs{Knob{"extra_delay", 0.8, &Truth::delay_samples, fals
                             Knob{"static_load", 0.05, &Truth::load_n},
                             Knob{"viscous_damping", 0.3, &Truth::damping_n_s_per_m, false},
                             Knob{"dry_friction", 0.02, &Truth::friction_n, false},
-                            Knob{"coupling_stiffness", 15.0, &Truth::spring_n_per_m, false}};
+                            Knob{"coupling_stiffness", 15.0, &Truth::spring_n_per_m, false},
+                            Knob{"command_offset", 0.04, &Truth::command_a}};
 
 /// A healthy rig is off by this much everywhere.
 void Mismatch(Random& random, Truth& truth) {
@@ -124,7 +126,7 @@ class World {
   [[nodiscard]] double Drive(std::size_t coil, double asked_a) const {
     // A bridge's drop sets in softly, within a tenth of it.
     const double soft = 0.1 * truth_.dead_band_a + 1e-9;
-    const double u = asked_a - truth_.dead_band_a;
+    const double u = asked_a + (coil == 0 ? truth_.command_a : 0.0) - truth_.dead_band_a;
     const double passed = u > 20.0 * soft ? u : soft * std::log1p(std::exp(u / soft));
     const double supply = rig_.steady * truth_.supply * (coil == 0 ? 1.0 : truth_.away_supply);
     return supply * passed + rig_.offset_a;

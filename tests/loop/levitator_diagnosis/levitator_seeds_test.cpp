@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "diagnosis/levitator/levitator_result.hpp"
@@ -73,6 +74,21 @@ TEST(LevitatorSeeds, AHealthyRigIsCalledHealthy) {
 TEST(LevitatorSeeds, AWeakerMagnetIsNamedOrTiedWithWhatWeighsTheSame) {
   std::string truth;
   EXPECT_TRUE(Ask(7002, "current_gain", truth).right);
+}
+
+// Both coils' supply, resistance and dead band may hide 40 mA of command within their tolerances;
+// records of the same rig without it know them far better.
+TEST(LevitatorSeeds, ADriveThatAddsToItsCommandIsNamedBesideHealthyRecords) {
+  const configuration::RigFile rig = Rig();
+  const accuracy::LevitatorTrial healthy = accuracy::MakeLevitatorTrial(rig, 7004, "none");
+  const accuracy::LevitatorTrial faulty = accuracy::MakeLevitatorTrial(rig, 7004, "command_offset");
+  ASSERT_TRUE(healthy.stable && faulty.stable);
+  const diagnosis::DiagnosisReport found =
+      levitator::Diagnose(rig, faulty.records, {}, {}, healthy.records).report;
+  ASSERT_FALSE(found.causes.empty());
+  EXPECT_EQ(found.causes.front().effect, "command_offset");
+  ASSERT_FALSE(found.parameters.empty());
+  EXPECT_NEAR(found.parameters.front().value, faulty.size, 0.2 * std::abs(faulty.size));
 }
 
 TEST(LevitatorSeeds, ADelayIsNamed) {

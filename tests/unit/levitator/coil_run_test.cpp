@@ -67,6 +67,19 @@ TEST(CoilRun, EndsAtSupplyOverResistanceBeyondItsDeadBand) {
   EXPECT_NEAR(run.reading_a[0].back(), (1.1 * (1.5 - 0.3) + rig.offset_a) / 1.2, kCloseEnough_a);
 }
 
+TEST(CoilRun, AddsWhatTheDriveAddsToACommandOfThatCoilAlone) {
+  const NominalRig rig = Rig();
+  Theta theta = Zeros(1);
+  theta[kCommandUpper] = 0.04;
+  const Series series = StillSeries(400, 1.5, 1.0);
+  const CoilRun upper = RunCoils(rig, series, theta, 0);
+  EXPECT_NEAR(upper.reading_a[0].back(), 1.54 + rig.offset_a, kCloseEnough_a);
+  EXPECT_NEAR(upper.reading_a[1].back(), rig.offset_a, kCloseEnough_a);
+  theta[kCommandLower] = 0.1;
+  EXPECT_NEAR(RunCoils(rig, series, theta, 0).reading_a[1].back(), 0.1 + rig.offset_a,
+              kCloseEnough_a);
+}
+
 TEST(CoilRun, LosesCurrentAsItWarms) {
   const NominalRig rig = Rig();
   Theta theta = Zeros(1);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "diagnosis/levitator/search.hpp"
 #include "tests/unit/levitator/rig.hpp"
 
 namespace levitas::levitator {
@@ -63,6 +64,25 @@ TEST(Freedom, AddsWhatNoHealthyRigHas) {
   EXPECT_EQ(FreedomOf({CauseOf("dry_friction")}, 2).one_sided, 1U);
 }
 
+// Of two values whose sum is known far better than either, neither may move alone.
+TEST(Freedom, KnowsOfHealthyRecordsWhatTheyKnowTogether) {
+  Eigen::MatrixXd known = Eigen::MatrixXd::Zero(kParameters, kParameters);
+  const auto one = static_cast<Eigen::Index>(kSupply);
+  const auto other = static_cast<Eigen::Index>(kResistance);
+  known(one, one) = known(other, other) = 1e-4;
+  known(one, other) = known(other, one) = -0.9999e-4;
+  const Freedom freedom = FreedomOf({}, 1, Zeros(0), known);
+  ASSERT_EQ(freedom.active.size(), 4U) << "these two and the two of the record";
+  EXPECT_NEAR(freedom.deviation[0], 0.01, 1e-12);
+  EXPECT_NEAR(freedom.most[0], kFarthest * 0.01, 1e-12);
+  Eigen::Vector4d together{1.0, 1.0, 0.0, 0.0};
+  Eigen::Vector4d apart{1.0, -1.0, 0.0, 0.0};
+  // Variance of the sum of both is 2 (1 - 0.9999) of one's: 1e4 in precision over that of the
+  // difference, 2 (1 + 0.9999).
+  EXPECT_NEAR(together.dot(freedom.precision * together), 2.0 / (1.0 - 0.9999), 1e-6);
+  EXPECT_NEAR(apart.dot(freedom.precision * apart), 2.0 / (1.0 + 0.9999), 1e-9);
+}
+
 class FitOfAKnownRig : public testing::Test {
  protected:
   FitOfAKnownRig() {
@@ -74,6 +94,19 @@ class FitOfAKnownRig : public testing::Test {
   Theta truth_{Zeros(1)};
   std::vector<Series> series_;
 };
+
+TEST_F(FitOfAKnownRig, IsWorthOnOtherRecordsWhatItExplainsBlockByBlock) {
+  const Misfit misfit(rig_, series_);
+  const Filters filters = misfit.Whiten(truth_, kMemory);
+  const ValidationGain gain = GainOn(misfit, filters, truth_, Zeros(1));
+  EXPECT_NEAR(gain.value,
+              0.5 * (misfit.SquaredSum(Zeros(1), filters) - misfit.SquaredSum(truth_, filters)),
+              1e-6 * gain.value);
+  EXPECT_GT(gain.value, 3.0 * gain.deviation) << "every block gains";
+  EXPECT_GT(gain.deviation, 0.0);
+  const ValidationGain loss = GainOn(misfit, filters, Zeros(1), truth_);
+  EXPECT_NEAR(loss.value, -gain.value, 1e-9 * gain.value);
+}
 
 TEST_F(FitOfAKnownRig, FindsItsParametersWithinThreeOfTheirDeviations) {
   const Misfit misfit(rig_, series_);

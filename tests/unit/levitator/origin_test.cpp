@@ -88,6 +88,7 @@ Theta Everything() {
   theta[kProfile] = 0.9;
   theta[kIronInductance] = 0.2;
   theta[kDeadBand] = 0.09;
+  theta[kCommandUpper] = 0.04;
   theta[kDriveCurve] = -0.2;
   theta[kHeating] = 4e-3;
   theta[kMotionEmf] = -0.03;

@@ -32,6 +32,8 @@ TEST(SuspectedTest, SaysWhyAndHowLikely) {
   EXPECT_NE(weak.next_experiment, kNoneNeeded);
   EXPECT_THAT(Suspected(Doubt::kValidationHarm, 0.01).verdict_sentence,
               HasSubstr("validation data refute it"));
+  EXPECT_THAT(Suspected(Doubt::kUnconfirmed, 0.8).verdict_sentence,
+              HasSubstr("validation data do not confirm it"));
   EXPECT_THAT(Suspected(Doubt::kMovedNumber, 0.98).verdict_sentence,
               HasSubstr("all but 2 % of healthy rigs"));
   EXPECT_THAT(Suspected(Doubt::kResidualIsLeft, 0.99).verdict_sentence,

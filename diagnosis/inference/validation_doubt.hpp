@@ -1,0 +1,26 @@
+#pragma once
+// What a gain on validation data says of causes that the fitted records prefer.
+//
+// Gain       of the causes over the calibrated model in squared whitened innovations, on data that
+//            neither was fitted to, with the standard deviation of the sum from the scatter of its
+//            blocks.
+// Confirmed  beyond `deviations` of the scatter; refuted: below that on the other side.
+// Open       between the two. Two models whose forecasts are D apart, squared, differ by D in the
+//            mean where one of them is right, with a scatter of 2 sqrt(D). So data that scatter by
+//            less than 4 `deviations` do not confirm even what is right: they cannot show the
+//            causes (an unbalance at rest), and are no reason to doubt them.
+// Thread     any; pure.
+
+#include "diagnosis/inference/verdict.hpp"
+
+namespace levitas::diagnosis {
+
+/// kNothing where the gain confirms the causes, or could not. A gain that is no number (the model
+/// diverges) refutes them.
+[[nodiscard]] Doubt DoubtOf(double gain, double deviation, double deviations) noexcept;
+
+/// That causes are worth something there: of a normal distribution about the gain; 0 where the gain
+/// is no number.
+[[nodiscard]] double ChanceOfGain(double gain, double deviation) noexcept;
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,43 @@
+// What a gain on validation data says of causes.
+
+#include "diagnosis/inference/validation_doubt.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace levitas::diagnosis {
+namespace {
+
+constexpr double kDeviations = 1.645;
+
+TEST(DoubtOf, ConfirmsWhatGainsBeyondItsScatter) {
+  EXPECT_EQ(DoubtOf(20.0, 10.0, kDeviations), Doubt::kNothing);
+  EXPECT_EQ(DoubtOf(16.0, 10.0, kDeviations), Doubt::kUnconfirmed);
+  EXPECT_EQ(DoubtOf(-16.0, 10.0, kDeviations), Doubt::kUnconfirmed);
+  EXPECT_EQ(DoubtOf(-17.0, 10.0, kDeviations), Doubt::kValidationHarm);
+}
+
+// Forecasts that are 9 apart, squared, scatter by 6: less than what a right cause would need.
+TEST(DoubtOf, IsNoneWhereTheDataCouldNotConfirmARightCause) {
+  EXPECT_EQ(DoubtOf(9.0, 6.0, kDeviations), Doubt::kNothing);
+  EXPECT_EQ(DoubtOf(0.0, 0.0, kDeviations), Doubt::kNothing);
+  EXPECT_EQ(DoubtOf(-12.0, 6.0, kDeviations), Doubt::kValidationHarm);
+}
+
+TEST(DoubtOf, RefutesAModelThatDiverges) {
+  EXPECT_EQ(DoubtOf(std::numeric_limits<double>::quiet_NaN(), 1.0, kDeviations),
+            Doubt::kValidationHarm);
+  EXPECT_EQ(DoubtOf(-std::numeric_limits<double>::infinity(), 1.0, kDeviations),
+            Doubt::kValidationHarm);
+}
+
+TEST(ChanceOfGain, IsThatOfANormalDistribution) {
+  EXPECT_NEAR(ChanceOfGain(0.0, 3.0), 0.5, 1e-12);
+  EXPECT_NEAR(ChanceOfGain(1.6448536, 1.0), 0.95, 1e-6);
+  EXPECT_NEAR(ChanceOfGain(-1.6448536, 1.0), 0.05, 1e-6);
+  EXPECT_EQ(ChanceOfGain(std::numeric_limits<double>::quiet_NaN(), 1.0), 0.0);
+}
+
+}  // namespace
+}  // namespace levitas::diagnosis
