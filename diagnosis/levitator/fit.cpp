@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "common/problem.hpp"
 #include "numerics/factors/factors.hpp"
 #include "numerics/minimum/levenberg_marquardt.hpp"
 
@@ -191,9 +192,14 @@ Fitted Fitter::Fit(const CauseSet& causes, const Theta& start, const Filters& fi
         std::clamp(start[freedom.active[i]], freedom.least[at], freedom.most[at]);
   }
   PenalisedMisfit problem(misfit_, filters, freedom);
-  const auto found = numerics::LevenbergMarquardt(problem, problem.At(out.theta), Options(steps));
+  auto from = problem.At(out.theta);
+  // A curve that others held in check may leave every range without them.
+  if (!std::isfinite(from.cost)) from = problem.At(Zeros(misfit_.series().size()));
+  const auto found = numerics::LevenbergMarquardt(problem, std::move(from), Options(steps));
   out.theta = found.at.point;
   const double cost = found.at.cost;
+  if (!std::isfinite(cost))
+    throw BadInput("the rig file itself says nothing finite of the records");
   // At the minimum the Jacobian of the last step is as good as a new one.
   const numerics::NormalEquations normal =
       WithPriors(problem.sums(), freedom, Scaled(freedom, out.theta));

@@ -113,7 +113,7 @@ std::vector<ValidationRun> JudgeAll(const NominalRig& rig, const std::vector<Ser
 void LearnFromHealthy(const std::vector<Series>& healthy, SearchSettings settings,
                       NominalRig& rig) {
   const std::vector<Series> stretches = Stretches(healthy);
-  settings.form_share = 0.0;  // the form of a law that is wrong there is known here
+  settings.form_share = 0.0;  // what is left unexplained here is accused in all that follow
   const Found found = Search(Misfit(rig, stretches), nullptr, settings);
   const Theta shared = SharedPart(found.extended.theta, 1);
   rig.origin = ComposedWith(rig.origin, shared);
