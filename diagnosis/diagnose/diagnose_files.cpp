@@ -176,7 +176,7 @@ DiagnosisResult DiagnoseRecords(const configuration::RigFile& rig,
                        LargestOrbit(fitted, out.view->axes));
   if (!vouched_for.empty()) {
     for (const Term& term : out.terms) out.file_tolerance.push_back(term.tolerance);
-    LearnFromHealthy(*out.view, vouched_for, settings.judging, out.terms);
+    out.terms = LearnFromHealthy(*out.view, vouched_for, settings.judging, out.terms);
   }
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     fitted[i].number = static_cast<std::uint32_t>(i);

@@ -98,8 +98,8 @@ Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::
   return better ? again : best;
 }
 
-void LearnFromHealthy(const RigView& rig, const std::vector<Record>& healthy,
-                      const Judging& judging, std::vector<Term>& terms) {
+std::vector<Term> LearnFromHealthy(const RigView& rig, const std::vector<Record>& healthy,
+                                   const Judging& judging, const std::vector<Term>& terms) {
   const Search search(rig, terms, std::nullopt, judging.model_error_share);
   const std::vector<Record> records = Spans(healthy, kHealthyRows, rig.period_s);
   constexpr int kPasses = 8;
@@ -107,13 +107,15 @@ void LearnFromHealthy(const RigView& rig, const std::vector<Record>& healthy,
                                          search.DesignGains(records, kSlow), kSlow, kPasses);
   if (!fit.ok) throw BadInput("the healthy records cannot be calibrated: is it the same rig?");
   const Fit posterior = Evidence(fit.problem, terms, {}).Solve();
+  std::vector<Term> narrowed = terms;
   for (std::size_t i = 0; i < terms.size(); ++i) {
-    Term& term = terms[i];
+    Term& term = narrowed[i];
     if (!term.nuisance()) continue;
     const double left = posterior.deviation[static_cast<Eigen::Index>(i)] * term.scale();
     term.healthy_mean = fit.theta[i];
     term.tolerance = std::min(term.tolerance, std::hypot(left, kDaily * term.tolerance));
   }
+  return narrowed;
 }
 
 }  // namespace levitas::diagnosis

@@ -40,8 +40,10 @@ inline constexpr double kDaily = 0.2;  ///< share of its tolerance
                                          const std::vector<Record>& records, const Gains& gains,
                                          const ObserverSpeed& speed, int passes);
 
-/// Sets `healthy_mean` and narrows `tolerance` of the nuisances.
-void LearnFromHealthy(const RigView& rig, const std::vector<Record>& healthy,
-                      const Judging& judging, std::vector<Term>& terms);
+/// The terms, with the `healthy_mean` and the narrower `tolerance` of nuisances that records say.
+[[nodiscard]] std::vector<Term> LearnFromHealthy(const RigView& rig,
+                                                 const std::vector<Record>& healthy,
+                                                 const Judging& judging,
+                                                 const std::vector<Term>& terms);
 
 }  // namespace levitas::diagnosis
