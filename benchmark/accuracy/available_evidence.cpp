@@ -30,7 +30,7 @@ double Misfit(const diagnosis::RigView& rig, const std::vector<diagnosis::Term>&
                                                                gains, diagnosis::kSlow, kPasses);
   if (!fit.ok) return std::numeric_limits<double>::infinity();
   return diagnosis::Refiner(search, terms, records, gains, rig.axes)
-      .Misfit(fit.theta, diagnosis::kWhiteningOrder);
+      .Misfit(fit.point, diagnosis::kWhiteningOrder);
 }
 
 }  // namespace

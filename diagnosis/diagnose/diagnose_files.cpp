@@ -133,7 +133,7 @@ std::vector<Record> CutToLevitated(const RigView& rig, std::vector<Record> recor
 void Measure(const std::vector<Record>& fitted, const std::vector<Record>& holdout,
              const Judging& judging, DiagnosisResult& out) {
   const Search search(*out.view, out.terms);
-  const std::vector<double> nothing(out.terms.size(), 0.0);
+  const Point nothing = PointAt(out.terms, std::vector<double>(out.terms.size(), 0.0));
   std::vector<double> noise_rms_m;
   for (const auto& channel : out.answer.residual.channels) {
     noise_rms_m.push_back(channel.noise_rms_m);
@@ -141,8 +141,8 @@ void Measure(const std::vector<Record>& fitted, const std::vector<Record>& holdo
   const auto run = [&](const std::vector<Record>& records) {
     const Gains gains = search.DesignGains(records, out.answer.speed);
     return ModelRuns{search.Run(records, gains, nothing),
-                     search.Run(records, gains, out.answer.theta_calibrated),
-                     search.Run(records, gains, out.answer.theta_extended)};
+                     search.Run(records, gains, out.answer.calibrated),
+                     search.Run(records, gains, out.answer.extended)};
   };
   const ModelRuns runs = run(fitted);
   const Residual before = AnalyseResidual(*out.view, runs.nominal);

@@ -31,7 +31,7 @@ struct DiagnosisRequest {
 
 struct DiagnosisResult {
   SearchResult answer;
-  std::vector<Term> terms;             ///< refer to `view`
+  std::vector<Term> terms;             ///< that were searched; refer to `view`
   std::vector<double> file_tolerance;  ///< per term, before healthy records; empty without them
   std::shared_ptr<const RigView> view;
   Gain fitted, validation;

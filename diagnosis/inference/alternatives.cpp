@@ -91,7 +91,7 @@ void RankCandidates(const EvidenceLandscape& landscape, const SelectionRules& ru
       const Hypothesis& h = landscape.hypotheses()[i];
       if (h.effect == c.effect && h.place == first.place) c.hypothesis = i;
     }
-    c.place = first.place;
+    c.place = landscape.PlaceAt(found.point, first);
     c.score = landscape.GainOf(first, others);
   }
   SortByScore(found.candidates);
@@ -100,11 +100,11 @@ void RankCandidates(const EvidenceLandscape& landscape, const SelectionRules& ru
 void RefitAlternatives(const EvidenceLandscape& landscape, const SelectionRules& rules,
                        CauseSelection& found) {
   if (found.causes.empty()) return;
-  const CauseSet leader{found.causes, landscape.Fit(found.causes, found.theta, 1)};
+  const CauseSet leader{found.causes, landscape.Fit(found.causes, found.point, 1)};
   found.leader_evidence =
       leader.fit.ok ? leader.fit.evidence : std::numeric_limits<double>::infinity();
   if (!leader.fit.ok) return;
-  found.theta = leader.fit.theta;
+  found.point = leader.fit.point;
   const auto own =
       std::find_if(found.candidates.begin(), found.candidates.end(),
                    [&found](const auto& c) { return c.effect == found.causes[0].effect; });
@@ -115,7 +115,7 @@ void RefitAlternatives(const EvidenceLandscape& landscape, const SelectionRules&
   CauseSet best = BestAlternative(landscape, rules, leader, lead, found);
   KeepContenders(rules.judging, leader, best.fit.evidence, lead, found.contenders);
   found.causes = std::move(best.causes);
-  found.theta = best.fit.theta;
+  found.point = best.fit.point;
   found.leader_evidence = best.fit.evidence;
   SortByScore(found.candidates);
 }
@@ -126,12 +126,12 @@ bool DropFailedLeader(EvidenceLandscape& landscape, const SelectionRules& rules,
   const double decisive_nat = rules.judging.decisive_nat;
   const std::vector<Hypothesis> rest = Without(found.causes, 0);
   const Refined fit =
-      landscape.Fit(rest, rest.empty() ? found.calibrated : landscape.SolutionOf(rest),
+      landscape.Fit(rest, rest.empty() ? found.WithoutCauses() : landscape.SolutionOf(rest),
                     rules.effort.passes, found.leader_evidence - decisive_nat);
   if (!fit.ok || found.leader_evidence - fit.evidence >= decisive_nat) return false;
   found.causes = rest;
-  found.theta = fit.theta;
-  landscape.LineariseAt(found.theta);
+  found.point = fit.point;
+  landscape.LineariseAt(found.point);
   return true;
 }
 

@@ -18,30 +18,30 @@ constexpr double kHeld = 0.2;  ///< of its tolerance
 
 /// Whether a filter takes the fit's innovations for coloured: it may hide an orbit.
 bool IsColoured(const Search& search, const std::vector<Record>& records, const Gains& gains,
-                const std::vector<double>& theta) {
-  const auto runs = search.Run(records, gains, theta);
+                const Point& point) {
+  const auto runs = search.Run(records, gains, point);
   return TakesAway(search.WhitenerOf(runs, kWhiteningOrder), search.WhitenerOf(runs, 0), kLoud);
 }
 
 /// From the nominal rig: a fast observer on a few rows, then the one of `gains`. Where that ends
 /// with what a filter takes for colour, also without the fast one; what fits better stays. A filter
 /// that hides an orbit leaves more than it claims, and Misfit counts that.
-std::vector<double> FromFar(const RigView& rig, const Search& search,
-                            const std::vector<Term>& terms, const std::vector<Record>& few,
-                            const std::vector<Record>& records, const Gains& gains) {
+Point FromFar(const RigView& rig, const Search& search, const std::vector<Term>& terms,
+              const std::vector<Record>& few, const std::vector<Record>& records,
+              const Gains& gains) {
   const Gains fast = search.DesignGains(few, kFast);
-  const std::vector<double> file = search.HealthyParameters();
+  const Point file = search.HealthyPoint();
   const Refined coarse =
       Refiner(search, terms, few, fast, rig.axes).Approach(file, kWhiteningOrder, 3);
   const Refiner refiner(search, terms, records, gains, rig.axes);
   const Refined fine =
-      refiner.Approach(coarse.ok ? coarse.theta : file, kWhiteningOrder, kStartPasses);
-  if (fine.ok && !IsColoured(search, records, gains, fine.theta)) return fine.theta;
+      refiner.Approach(coarse.ok ? coarse.point : file, kWhiteningOrder, kStartPasses);
+  if (fine.ok && !IsColoured(search, records, gains, fine.point)) return fine.point;
   const Refined direct = refiner.Approach(file, kWhiteningOrder, kStartPasses);
-  if (!direct.ok) return fine.ok ? fine.theta : file;
-  const bool better = !fine.ok || refiner.Misfit(direct.theta, kWhiteningOrder) <
-                                      refiner.Misfit(fine.theta, kWhiteningOrder);
-  return better ? direct.theta : fine.theta;
+  if (!direct.ok) return fine.ok ? fine.point : file;
+  const bool better = !fine.ok || refiner.Misfit(direct.point, kWhiteningOrder) <
+                                      refiner.Misfit(fine.point, kWhiteningOrder);
+  return better ? direct.point : fine.point;
 }
 
 /// The records of a rotor that stands; none where all do, or none does.
@@ -58,7 +58,7 @@ std::vector<Record> AtRest(const std::vector<Record>& records) {
 bool IsLost(const RigView& rig, const Search& search, const std::vector<Record>& records,
             const Gains& gains, const Refined& fit) {
   constexpr double kFar = 100.0;  // standard deviations of the worst band
-  return !fit.ok || !(AnalyseResidual(rig, search.Run(records, gains, fit.theta)).sigma < kFar);
+  return !fit.ok || !(AnalyseResidual(rig, search.Run(records, gains, fit.point)).sigma < kFar);
 }
 
 }  // namespace
@@ -81,20 +81,18 @@ Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::
   const std::vector<Term> held = HeldToFile(terms);
   const Search cautious(rig, held, std::nullopt, search.model_error_share());
   const std::vector<Record> part = Spans(all, kStartRows, rig.period_s);
-  const std::vector<double> start =
-      FromFar(rig, cautious, held, Spans(all, kFastRows, rig.period_s), part,
-              cautious.DesignGains(part, speed));
+  const Point start = FromFar(rig, cautious, held, Spans(all, kFastRows, rig.period_s), part,
+                              cautious.DesignGains(part, speed));
   const Refiner refiner(search, terms, records, gains, rig.axes);
   Refined best = refiner.Approach(start, kWhiteningOrder, passes);
   const std::vector<Record> resting = AtRest(all);
   if (resting.empty() || !IsLost(rig, search, records, gains, best)) return best;
   const std::vector<Record> few = Spans(resting, kStartRows, rig.period_s);
-  const std::vector<double> other =
-      FromFar(rig, cautious, held, Spans(resting, kFastRows, rig.period_s), few,
-              cautious.DesignGains(few, speed));
+  const Point other = FromFar(rig, cautious, held, Spans(resting, kFastRows, rig.period_s), few,
+                              cautious.DesignGains(few, speed));
   Refined again = refiner.Approach(other, kWhiteningOrder, passes);
-  const bool better = again.ok && (!best.ok || refiner.Misfit(again.theta, kWhiteningOrder) <
-                                                   refiner.Misfit(best.theta, kWhiteningOrder));
+  const bool better = again.ok && (!best.ok || refiner.Misfit(again.point, kWhiteningOrder) <
+                                                   refiner.Misfit(best.point, kWhiteningOrder));
   return better ? again : best;
 }
 
@@ -112,7 +110,7 @@ std::vector<Term> LearnFromHealthy(const RigView& rig, const std::vector<Record>
     Term& term = narrowed[i];
     if (!term.nuisance()) continue;
     const double left = posterior.deviation[static_cast<Eigen::Index>(i)] * term.scale();
-    term.healthy_mean = fit.theta[i];
+    term.healthy_mean = fit.point.theta[i];
     term.tolerance = std::min(term.tolerance, std::hypot(left, kDaily * term.tolerance));
   }
   return narrowed;

@@ -42,8 +42,8 @@ struct CauseSet {
 };
 
 struct CauseSelection {
-  std::vector<double> theta, calibrated;  ///< with the causes; nuisances alone
-  Runs calibrated_runs;                   ///< of the fitted records
+  Point point, calibrated;  ///< with the causes; nuisances alone
+  Runs calibrated_runs;     ///< of the fitted records
   std::vector<Hypothesis> causes;
   std::vector<Candidate> refitted;    ///< by the last search for a further cause
   std::vector<Candidate> candidates;  ///< every effect at its best place, best first
@@ -52,6 +52,9 @@ struct CauseSelection {
   bool whitened_anew{};               ///< by a search that ends with its first cause
   Doubt doubt{Doubt::kNothing};
   double probability{};  ///< of what is suspected
+
+  /// The calibrated numbers; the shapes that were found are still those that are screened.
+  [[nodiscard]] Point WithoutCauses() const { return {calibrated.theta, point.shapes}; }
 };
 
 }  // namespace levitas::diagnosis

@@ -39,8 +39,8 @@ void Calibrate(RecordLandscape& landscape, const std::vector<Record>& all_record
           "the model cannot be made to follow these records: is it this rig's file, and are the "
           "units and signs of currents and positions right?");
     }
-    found.theta = found.calibrated = fit.theta;
-    if (fastest || (fit.ok && !ModelDiverges(landscape.rig(), landscape.RunAt(found.theta))))
+    found.point = found.calibrated = fit.point;
+    if (fastest || (fit.ok && !ModelDiverges(landscape.rig(), landscape.RunAt(found.point))))
       return;
     landscape.ReportProgress(0.02, "calibrating with a faster observer");
   }
@@ -51,7 +51,7 @@ void Describe(const std::vector<Term>& terms, const CauseSelection& found, const
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const Term& t = terms[i];
     const double deviation = fit.deviation[static_cast<Eigen::Index>(i)] * t.scale();
-    const Estimate estimate{i, found.theta[i], deviation};
+    const Estimate estimate{i, found.point.theta[i], deviation};
     if (Moves(found.causes, i)) {
       answer.parameters.push_back(estimate);
     } else if (t.nuisance()) {
@@ -103,7 +103,7 @@ Verdict VerdictOf(const SelectionRules& rules, bool unexplained, CauseSelection&
   return found.doubt == Doubt::kNothing ? Verdict::kEffect : Verdict::kSuspected;
 }
 
-/// Of all fitted numbers, before an unknown verdict forgets the causes that theta holds.
+/// Of all fitted numbers, before an unknown verdict forgets the causes that the point holds.
 Eigen::MatrixXd SpreadOf(const RecordLandscape& landscape, const std::vector<Hypothesis>& causes) {
   Eigen::MatrixXd spread = landscape.EvidenceGiven(causes).Spread();
   for (std::size_t i = 0; i < landscape.terms().size(); ++i) {
@@ -125,11 +125,11 @@ void RefuseLostSensitivities(const RecordLandscape& landscape) {
 /// dropped.
 std::shared_ptr<const std::vector<Trajectory>> RunsWithProvenCauses(
     const RecordLandscape& landscape, const Judging& judging, CauseSelection& found) {
-  auto runs = std::make_shared<const std::vector<Trajectory>>(landscape.RunAt(found.theta));
+  auto runs = std::make_shared<const std::vector<Trajectory>>(landscape.RunAt(found.point));
   const double held = HeldGain(*found.calibrated_runs, *runs, landscape.view().whitener);
   if (!found.causes.empty() && found.doubt == Doubt::kNothing && held < -judging.harm_nat) {
     found.causes.clear();
-    found.theta = found.calibrated;
+    found.point = found.WithoutCauses();
     runs = found.calibrated_runs;
   }
   return runs;
@@ -143,8 +143,8 @@ SearchResult Conclude(const RecordLandscape& landscape, const std::vector<Record
   SearchResult answer;
   answer.speed = kSpeeds[landscape.speed()];
   const auto runs = RunsWithProvenCauses(landscape, judging, found);
-  answer.theta_extended = found.theta;
-  answer.theta_calibrated = found.calibrated;
+  answer.extended = found.point;
+  answer.calibrated = found.calibrated;
   answer.residual = AnalyseResidual(landscape.rig(), *runs);
   if (const std::string why = WhyNotJudged(landscape.rig(), *runs); !why.empty())
     throw BadInput(why);
@@ -164,6 +164,7 @@ SearchResult Conclude(const RecordLandscape& landscape, const std::vector<Record
   answer.also_possible =
       Ties(found.candidates, found.causes, judging.decisive_nat, judging.form_share);
   answer.causes = found.causes;
+  for (Hypothesis& cause : answer.causes) cause.place = landscape.PlaceAt(found.point, cause);
   answer.candidates = found.candidates;
   // An event is seen as such: it is named whatever else is doubted.
   answer.verdict = found.causes.size() > named ? Verdict::kEffect : verdict;
@@ -179,12 +180,12 @@ SearchResult Conclude(const RecordLandscape& landscape, const std::vector<Record
 
 SearchResult Diagnose(const RigView& rig, const std::vector<Record>& records,
                       const std::vector<Record>& validation, const Settings& settings,
-                      std::vector<Term>& terms) {
+                      const std::vector<Term>& terms) {
   const Effort effort = settings.quick ? kQuick : kThorough;
   const SelectionRules rules{settings.judging, effort, settings.most_causes};
   RecordLandscape landscape(rig, records, settings, effort, terms);
   CauseSelection found;
-  found.theta = landscape.search().HealthyParameters();
+  found.point = landscape.search().HealthyPoint();
   Calibrate(landscape, records, effort.calibrations, found);
   FindCauses(landscape, rules, found);
   if (effort.first_cause_only) {

@@ -40,6 +40,7 @@
 #include "diagnosis/inference/residual.hpp"
 #include "diagnosis/inference/verdict.hpp"
 #include "diagnosis/model/observer_speed.hpp"
+#include "diagnosis/model/point.hpp"
 #include "diagnosis/terms/terms.hpp"
 #include "plant_sim/effect/effect_config.hpp"
 
@@ -82,19 +83,19 @@ struct SearchResult {
   std::vector<Candidate> candidates;      ///< best place of every effect, best first
   ObserverSpeed speed{kSlow};             ///< under which the model followed the records in the end
   Residual residual;
-  std::vector<double> theta_calibrated;  ///< nuisances alone
-  std::vector<double> theta_extended;    ///< with the causes
-  /// Posterior of theta_extended: terms x parameters, so that theta_extended + spread z with z
+  Point calibrated;  ///< nuisances alone
+  Point extended;    ///< with the causes
+  /// Posterior of extended.theta: terms x parameters, so that extended.theta + spread z with z
   /// normal of unit variance is a rig that fits as well; in the terms' own units.
   Eigen::MatrixXd spread;
   double evidence{};   ///< [nat] of all causes together
   double explained{};  ///< share of the calibrated model's excess over the noise
 };
 
-/// Terms of a family that is named become its best member (refine_shape.hpp). `validation`: records
-/// of the user to judge causes by, not fitted; may be empty.
+/// A family that is named has the shape of its best member (refine_shape.hpp) in `extended`, and is
+/// called after it. `validation`: records of the user to judge causes by, not fitted; may be empty.
 [[nodiscard]] SearchResult Diagnose(const RigView& rig, const std::vector<Record>& records,
                                     const std::vector<Record>& validation, const Settings& settings,
-                                    std::vector<Term>& terms);
+                                    const std::vector<Term>& terms);
 
 }  // namespace levitas::diagnosis

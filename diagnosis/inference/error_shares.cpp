@@ -30,7 +30,7 @@ std::vector<Group> GroupsOf(const std::vector<Term>& terms, const SearchResult& 
   }
   const std::size_t causes = groups.size();
   for (std::size_t i = 0; i < terms.size(); ++i) {
-    if (answer.theta_extended[i] == 0.0) continue;
+    if (answer.extended.theta[i] == 0.0) continue;
     std::size_t cause = 0;
     while (cause < causes && !Moves(answer.causes[cause], i)) ++cause;
     Group& group = cause < causes ? groups[cause] : GroupOf(groups, terms[i].effect);
@@ -66,16 +66,16 @@ std::vector<ErrorShare> ErrorShares(const Search& search, const std::vector<Term
                                     const std::vector<double>& noise_rms_m) {
   const std::vector<Record> records = Spans(fitted, kShareRows, search.rig().period_s);
   const Gains gains = search.DesignGains(records, answer.speed);
-  const std::vector<double> of_file(terms.size(), 0.0);
+  const Point of_file{std::vector<double>(terms.size(), 0.0), answer.extended.shapes};
   const std::vector<Trajectory> file = search.Run(records, gains, of_file);
-  const std::vector<Trajectory> model = search.Run(records, gains, answer.theta_extended);
+  const std::vector<Trajectory> model = search.Run(records, gains, answer.extended);
   const double whole = ProjectedChange({file, model, file, model}, noise_rms_m);
   if (!(whole > 0.0)) return {};
   std::vector<Group> groups = GroupsOf(terms, answer);
   EachInParallel(groups.size(), 0, [&](std::size_t g) {
-    std::vector<double> added = of_file;
-    std::vector<double> taken_out = answer.theta_extended;
-    for (const std::size_t i : groups[g].terms) std::swap(added[i], taken_out[i]);
+    Point added = of_file;
+    Point taken_out = answer.extended;
+    for (const std::size_t i : groups[g].terms) std::swap(added.theta[i], taken_out.theta[i]);
     const auto with = search.RunAlone(records, gains, added);
     const double first = ProjectedChange({file, with, file, model}, noise_rms_m);
     const auto without = search.RunAlone(records, gains, taken_out);

@@ -7,9 +7,8 @@
 // Linearised  GainOf, Screen, EvidenceOf and SolutionOf see the model as linearised where
 //             LineariseAt was called last; they cost next to nothing.
 // Fitted      Fit, Refit and RefineShapeOf run the nonlinear model: seconds.
-// Shapes      of families of laws (Family::shape) are part of a point, as theta is. RefineShapeOf
-//             moves them and leaves them where the fit that it returns has them; Shapes and Restore
-//             take them back.
+// Shapes      of families of laws (Family::shape) are part of a point, as theta is. A fit keeps
+//             those that it begins with; RefineShapeOf alone returns others.
 // Comparable  are fits between two calls of LineariseAt, which whitens anew.
 // Units       evidence and gains in nats; theta in the terms' own units. Thread: blocks the caller,
 //             two threads inside. Failure: a Refined that is not `ok`.
@@ -26,7 +25,6 @@ namespace levitas::diagnosis {
 class EvidenceLandscape {
  public:
   using Causes = std::vector<Hypothesis>;
-  using AllShapes = std::vector<Family::Shape>;
 
   EvidenceLandscape() = default;
   EvidenceLandscape(const EvidenceLandscape&) = delete;
@@ -34,7 +32,7 @@ class EvidenceLandscape {
   virtual ~EvidenceLandscape() = default;
 
   [[nodiscard]] virtual const Causes& hypotheses() const = 0;
-  virtual void LineariseAt(const std::vector<double>& theta) = 0;
+  virtual void LineariseAt(const Point& point) = 0;
 
   /// What `cause` explains beyond `given`.
   [[nodiscard]] virtual double GainOf(const Hypothesis& cause, const Causes& given) const = 0;
@@ -44,24 +42,21 @@ class EvidenceLandscape {
   /// Every effect at its best place beyond `given`, best first.
   [[nodiscard]] virtual std::vector<Candidate> Screen(const Causes& given) const = 0;
   [[nodiscard]] virtual double EvidenceOf(const Causes& set) const = 0;
-  /// theta of the best fit of the linearised model.
-  [[nodiscard]] virtual std::vector<double> SolutionOf(const Causes& set) const = 0;
-  [[nodiscard]] virtual std::vector<double> SolutionAt(const Refined& fit,
-                                                       const Causes& set) const = 0;
+  /// The best fit of the linearised model, with the shapes that it has.
+  [[nodiscard]] virtual Point SolutionOf(const Causes& set) const = 0;
+  [[nodiscard]] virtual Point SolutionAt(const Refined& fit, const Causes& set) const = 0;
 
   /// From `start` on. May end early where the evidence `worth` is out of reach.
-  [[nodiscard]] virtual Refined Fit(const Causes& set, const std::vector<double>& start, int passes,
+  [[nodiscard]] virtual Refined Fit(const Causes& set, const Point& start, int passes,
                                     double worth = kAnyEvidence) const = 0;
   /// From the linearised solution on, with all passes that a fit may have.
   [[nodiscard]] virtual Refined Refit(const Causes& set, double worth = kAnyEvidence) const = 0;
   /// `fit` of `set` with the best shape of the family of set[at]; as it is without a family.
   [[nodiscard]] virtual Refined RefineShapeOf(const Causes& set, std::size_t at, Refined fit,
-                                              double worth = kAnyEvidence) = 0;
+                                              double worth = kAnyEvidence) const = 0;
   [[nodiscard]] virtual bool HasShape(const Hypothesis& cause) const = 0;
-  [[nodiscard]] virtual AllShapes Shapes() const = 0;
-  virtual void Restore(const AllShapes& shapes) = 0;
-  /// A member of a family is called after its present shape, here and among the hypotheses.
-  virtual void TakePlace(Hypothesis& member) = 0;
+  /// What a report calls the place of the cause: of a member of a family, after its shape there.
+  [[nodiscard]] virtual std::string PlaceAt(const Point& point, const Hypothesis& cause) const = 0;
   /// Starts for frequencies of modes that the linearisation does not reach.
   [[nodiscard]] virtual std::vector<ModeProbe> Probes() const = 0;
 

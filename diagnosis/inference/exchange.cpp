@@ -15,7 +15,7 @@ constexpr std::size_t kOthers = 2;  ///< tried in the place of one cause
 constexpr int kRounds = 2;
 
 /// Refines the shapes of all families among the causes in turn, where `worth` can be reached.
-Refined RefineShapes(EvidenceLandscape& landscape, const std::vector<Hypothesis>& causes,
+Refined RefineShapes(const EvidenceLandscape& landscape, const std::vector<Hypothesis>& causes,
                      Refined fit, double worth) {
   for (std::size_t i = 0; i < causes.size() && fit.ok; ++i) {
     fit = landscape.RefineShapeOf(causes, i, std::move(fit), worth);
@@ -38,18 +38,10 @@ std::vector<Candidate> Near(const EvidenceLandscape& landscape, const Judging& j
   return near;
 }
 
-void Keep(EvidenceLandscape& landscape, std::vector<Hypothesis> causes, const Refined& fit,
-          CauseSelection& found) {
-  for (Hypothesis& cause : causes) landscape.TakePlace(cause);
-  found.causes = std::move(causes);
-  found.theta = fit.theta;
-}
-
 /// True when another one was better.
-bool ExchangeOne(EvidenceLandscape& landscape, const SelectionRules& rules, std::size_t at,
+bool ExchangeOne(const EvidenceLandscape& landscape, const SelectionRules& rules, std::size_t at,
                  Refined& best, CauseSelection& found) {
   bool better = false;
-  EvidenceLandscape::AllShapes shapes = landscape.Shapes();
   std::vector<Hypothesis> winner = found.causes;
   for (const Candidate& other : Near(landscape, rules.judging, found.causes, at)) {
     landscape.ReportProgress(
@@ -57,18 +49,18 @@ bool ExchangeOne(EvidenceLandscape& landscape, const SelectionRules& rules, std:
                           effect::At(other.effect).name));
     std::vector<Hypothesis> causes = found.causes;
     causes[at] = landscape.hypotheses()[other.hypothesis];
-    Refined fit = RefineShapes(landscape, causes, landscape.Refit(causes), best.evidence);
-    if (fit.ok && fit.evidence > best.evidence) {
-      best = std::move(fit);
-      winner = std::move(causes);
-      shapes = landscape.Shapes();
-      better = true;
-    } else {
-      landscape.Restore(shapes);
-    }
+    const Point start{landscape.SolutionOf(causes).theta, best.point.shapes};
+    Refined fit = landscape.Fit(causes, start, rules.effort.passes);
+    fit = RefineShapes(landscape, causes, std::move(fit), best.evidence);
+    if (!fit.ok || !(fit.evidence > best.evidence)) continue;
+    best = std::move(fit);
+    winner = std::move(causes);
+    better = true;
   }
-  if (better) Keep(landscape, std::move(winner), best, found);
-  return better;
+  if (!better) return false;
+  found.causes = std::move(winner);
+  found.point = best.point;
+  return true;
 }
 
 }  // namespace
@@ -77,20 +69,20 @@ void ExchangeCauses(EvidenceLandscape& landscape, const SelectionRules& rules,
                     CauseSelection& found) {
   if (found.causes.size() < 2) return;
   for (int round = 0; round < kRounds; ++round) {
-    Refined best = landscape.Fit(found.causes, found.theta, rules.effort.passes);
+    Refined best = landscape.Fit(found.causes, found.point, rules.effort.passes);
     best = RefineShapes(landscape, found.causes, std::move(best), kAnyEvidence);
     if (!best.ok) return;
-    Keep(landscape, found.causes, best, found);
-    landscape.LineariseAt(found.theta);
+    found.point = best.point;
+    landscape.LineariseAt(found.point);
     // Whitened anew: only what is fitted with the same whitening can be compared.
-    best = landscape.Fit(found.causes, found.theta, 1);
+    best = landscape.Fit(found.causes, found.point, 1);
     if (!best.ok) return;
     bool better = false;
     for (std::size_t at = 0; at < found.causes.size() && !better; ++at) {
       better = ExchangeOne(landscape, rules, at, best, found);
     }
     if (!better) return;
-    landscape.LineariseAt(found.theta);
+    landscape.LineariseAt(found.point);
   }
 }
 

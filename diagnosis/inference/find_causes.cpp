@@ -18,10 +18,9 @@ Runs CalibratedRuns(const RecordLandscape& landscape, const CauseSelection& foun
 
 /// Whether the model is farther from the readings than under the faster observer: one that has the
 /// causes is as near, for it follows by itself.
-bool FallsBehind(const RecordLandscape& landscape, const std::vector<double>& theta,
-                 const Whitener& faster) {
+bool FallsBehind(const RecordLandscape& landscape, const Point& point, const Whitener& faster) {
   constexpr double kTimes = 1.5;
-  return TakesAway(faster, landscape.search().WhitenerOf(landscape.RunAt(theta), 0), kTimes);
+  return TakesAway(faster, landscape.search().WhitenerOf(landscape.RunAt(point), 0), kTimes);
 }
 
 /// Back to slower observers, which see more, as far as the model with the causes found so far does
@@ -30,20 +29,20 @@ void SlowDown(RecordLandscape& landscape, const SelectionRules& rules, std::size
               CauseSelection& found) {
   while (landscape.speed() > slowest) {
     const std::size_t fast = landscape.speed();
-    const Whitener faster = landscape.search().WhitenerOf(landscape.RunAt(found.theta), 0);
+    const Whitener faster = landscape.search().WhitenerOf(landscape.RunAt(found.point), 0);
     landscape.Observe(fast - 1);
     Refined fit;
-    if (!ModelDiverges(landscape.rig(), landscape.RunAt(found.theta))) {
-      landscape.LineariseAt(found.theta);
+    if (!ModelDiverges(landscape.rig(), landscape.RunAt(found.point))) {
+      landscape.LineariseAt(found.point);
       if (!SensitivitiesDiverge(landscape.view().sum)) {
-        fit = landscape.Fit(found.causes, found.theta, rules.effort.passes);
+        fit = landscape.Fit(found.causes, found.point, rules.effort.passes);
       }
     }
-    if (!fit.ok || FallsBehind(landscape, fit.theta, faster)) {
+    if (!fit.ok || FallsBehind(landscape, fit.point, faster)) {
       landscape.Observe(fast);
       return;
     }
-    found.theta = fit.theta;
+    found.point = fit.point;
     if (!rules.effort.first_cause_only) RefineLastShape(landscape, fit, found);
     found.calibrated_runs = CalibratedRuns(landscape, found);
   }
@@ -57,15 +56,15 @@ void FindCauses(RecordLandscape& landscape, const SelectionRules& rules, CauseSe
     const double share = 0.2 + 0.2 * static_cast<double>(stage);
     if (stage > 0) SlowDown(landscape, rules, slowest, found);
     landscape.ReportProgress(share, "screening all causes");
-    landscape.LineariseAt(found.theta);
+    landscape.LineariseAt(found.point);
     while (SensitivitiesDiverge(landscape.view().sum) && landscape.speed() + 1 < kSpeeds.size()) {
       // Once more without any cause and with a faster observer, which holds the model where a
       // wrong cause leads it astray.
       found.causes.clear();
-      found.theta = found.calibrated;
+      found.point = found.WithoutCauses();
       slowest = landscape.speed() + 1;
       landscape.Observe(slowest);
-      landscape.LineariseAt(found.theta);
+      landscape.LineariseAt(found.point);
     }
     const bool swallowed = stage == 0 && !rules.effort.first_cause_only &&
                            TakeSwallowedCauses(landscape, rules, found);

@@ -65,14 +65,15 @@ double CameBack(const std::vector<Term>& terms, const std::vector<double>& calib
 
 void DropUngained(RecordLandscape& landscape, const Judging& judging, CauseSelection& found) {
   if (found.causes.empty()) return;
-  const auto runs = landscape.RunAt(found.theta);
+  const auto runs = landscape.RunAt(found.point);
   const FitGain gain = GainedFit(*found.calibrated_runs, runs, landscape.view().whitener,
                                  BlockRows(landscape.rig()));
-  const double back = CameBack(landscape.terms(), found.calibrated, found.theta, found.causes);
+  const double back =
+      CameBack(landscape.terms(), found.calibrated.theta, found.point.theta, found.causes);
   if (gain.value + back > judging.gain_deviations * gain.deviation) return;
   found.causes.clear();
-  found.theta = found.calibrated;
-  landscape.LineariseAt(found.theta);
+  found.point = found.WithoutCauses();
+  landscape.LineariseAt(found.point);
   found.calibrated_runs = landscape.view().runs;
 }
 

@@ -74,17 +74,17 @@ class Bands {
 };
 
 /// Numbers of a rig that the fitted records take for as likely as their spread says.
-std::vector<double> Draw(const std::vector<Term>& terms, const SearchResult& answer,
-                         Random& random) {
+Point Draw(const std::vector<Term>& terms, const SearchResult& answer, Random& random) {
   Eigen::VectorXd normal(answer.spread.cols());
   for (double& value : normal) value = random.Normal();
   const Eigen::VectorXd change = answer.spread * normal;
-  std::vector<double> theta = answer.theta_extended;
-  for (std::size_t i = 0; i < theta.size(); ++i) {
+  Point drawn = answer.extended;
+  for (std::size_t i = 0; i < terms.size(); ++i) {
     const double moved = change[static_cast<Eigen::Index>(i)];
-    if (moved != 0.0) theta[i] = std::max(theta[i] + moved, LeastPossible(terms[i]));
+    double& theta = drawn.theta[i];
+    if (moved != 0.0) theta = std::max(theta + moved, LeastPossible(terms[i]));
   }
-  return theta;
+  return drawn;
 }
 
 /// Per band and axis: squared distance of two predictions of the same readings.
@@ -134,13 +134,13 @@ Forecast Foretell(const Search& search, const std::vector<Term>& terms, const Se
   const std::size_t axes = search.rig().axes;
   const std::vector<Record> records = Spans(validation, kForecastRows, search.rig().period_s);
   const Gains gains = search.DesignGains(records, answer.speed);
-  const std::vector<Trajectory> model = search.Run(records, gains, answer.theta_extended);
+  const std::vector<Trajectory> model = search.Run(records, gains, answer.extended);
   const std::vector<Trajectory> file =
-      search.Run(records, gains, std::vector<double>(terms.size(), 0.0));
+      search.Run(records, gains, PointAt(terms, std::vector<double>(terms.size(), 0.0)));
   Bands bands(model, axes);
   if (bands.sums.empty()) return {};
   Random random(20261128);
-  std::vector<std::vector<double>> drawn;
+  std::vector<Point> drawn;
   for (std::size_t i = 0; i < kForecastDraws; ++i) drawn.push_back(Draw(terms, answer, random));
   std::vector<std::vector<std::vector<double>>> apart(drawn.size());
   auto from_file = apart;

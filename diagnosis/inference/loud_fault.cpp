@@ -18,9 +18,11 @@ bool IsLoud(const std::vector<Trajectory>& runs, std::size_t axes) {
   return TakesAway(MakeWhitener(runs, axes, kWhiteningOrder), MakeWhitener(runs, axes, 0), kLoud);
 }
 
-/// The best single cause from the rig file's numbers on, all innovations weighed alike.
-CauseSet FromFile(RecordLandscape& landscape, const SelectionRules& rules) {
-  landscape.LineariseUnfiltered(landscape.search().HealthyParameters());
+/// The best single cause from the rig file's numbers on, all innovations weighed alike; with the
+/// shapes found so far.
+CauseSet FromFile(RecordLandscape& landscape, const SelectionRules& rules,
+                  const CauseSelection& found) {
+  landscape.LineariseUnfiltered({landscape.search().HealthyPoint().theta, found.point.shapes});
   const std::vector<Candidate> screened = landscape.Screen({});
   CauseSet best;
   for (std::size_t i = 0; i < std::min(screened.size(), kMostTried); ++i) {
@@ -36,19 +38,19 @@ CauseSet FromFile(RecordLandscape& landscape, const SelectionRules& rules) {
 }  // namespace
 
 bool TakeLoudFault(RecordLandscape& landscape, const SelectionRules& rules, CauseSelection& found) {
-  if (rules.most_causes == 0 || !IsLoud(landscape.RunAt(found.theta), landscape.rig().axes))
+  if (rules.most_causes == 0 || !IsLoud(landscape.RunAt(found.point), landscape.rig().axes))
     return false;
-  const std::vector<double> linearised_at = landscape.view().theta;
-  const double before = landscape.MisfitOf(found.causes, found.theta);
-  CauseSet loud = FromFile(landscape, rules);
+  const Point linearised_at = landscape.view().point;
+  const double before = landscape.MisfitOf(found.causes, found.point);
+  CauseSet loud = FromFile(landscape, rules, found);
   if (loud.fit.ok) {
-    landscape.LineariseAt(loud.fit.theta);
-    Refined fit = landscape.Fit(loud.causes, loud.fit.theta, rules.effort.passes);
+    landscape.LineariseAt(loud.fit.point);
+    Refined fit = landscape.Fit(loud.causes, loud.fit.point, rules.effort.passes);
     // By as much as a cause must lead to be suspected: a model is never exact.
     const double most = before - rules.judging.suspected_nat;
-    if (fit.ok && landscape.MisfitOf(loud.causes, fit.theta) < most) {
+    if (fit.ok && landscape.MisfitOf(loud.causes, fit.point) < most) {
       found.causes = std::move(loud.causes);
-      found.theta = std::move(fit.theta);
+      found.point = std::move(fit.point);
       found.refitted.clear();  // they were weighed by the filter that hid it
       return true;
     }

@@ -49,10 +49,10 @@ void Rank(std::vector<Candidate>& candidates, Candidate named) {
 /// True when a cause was added.
 bool NameOne(const RecordLandscape& landscape, const SelectionRules& rules, CauseSelection& found) {
   const Fit fit = landscape.EvidenceGiven(found.causes).Solve();
-  const std::vector<std::size_t> moved = MovedBeyond(landscape.terms(), fit, found.theta,
+  const std::vector<std::size_t> moved = MovedBeyond(landscape.terms(), fit, found.point.theta,
                                                      found.causes, rules.judging.moved_tolerances);
   if (moved.empty()) return false;
-  const Refined before = landscape.Fit(found.causes, found.theta, 1);
+  const Refined before = landscape.Fit(found.causes, found.point, 1);
   if (!before.ok) return false;
   const Judging& judging = rules.judging;
   const double explained =
@@ -61,7 +61,7 @@ bool NameOne(const RecordLandscape& landscape, const SelectionRules& rules, Caus
   CauseSet best;
   for (const std::size_t term : moved) {
     const auto at = BestOf(landscape, found.causes, term);
-    if (!at || AgainstFile(landscape.terms()[term], fit, found.theta[term], term) < enough)
+    if (!at || AgainstFile(landscape.terms()[term], fit, found.point.theta[term], term) < enough)
       continue;
     std::vector<Hypothesis> causes = found.causes;
     causes.push_back(landscape.hypotheses()[*at]);
@@ -72,7 +72,7 @@ bool NameOne(const RecordLandscape& landscape, const SelectionRules& rules, Caus
   if (!best.fit.ok || best.fit.evidence <= before.evidence) return false;
   const bool first = found.causes.empty();
   found.causes = std::move(best.causes);
-  found.theta = best.fit.theta;
+  found.point = best.fit.point;
   const Hypothesis& named = found.causes.back();
   if (first) {
     const auto& all = landscape.hypotheses();

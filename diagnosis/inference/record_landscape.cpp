@@ -24,7 +24,7 @@ std::vector<Record> PartOf(const std::vector<Record>& records, const Effort& eff
 
 RecordLandscape::RecordLandscape(const RigView& rig, const std::vector<Record>& recorded,
                                  const Settings& settings, const Effort& effort,
-                                 std::vector<Term>& terms)
+                                 const std::vector<Term>& terms)
     : rig_(rig),
       terms_(terms),
       settings_(settings),
@@ -40,20 +40,17 @@ void RecordLandscape::Observe(std::size_t speed) {
   gains_ = search_.DesignGains(records_, kSpeeds[speed]);
 }
 
-void RecordLandscape::LineariseAt(const std::vector<double>& theta) {
-  Linearise(theta, kWhiteningOrder);
+void RecordLandscape::LineariseAt(const Point& point) { Linearise(point, kWhiteningOrder); }
+
+void RecordLandscape::LineariseUnfiltered(const Point& point) { Linearise(point, 0); }
+
+double RecordLandscape::MisfitOf(const Causes& causes, const Point& point) const {
+  return refiner_.Misfit(point, kWhiteningOrder, causes);
 }
 
-void RecordLandscape::LineariseUnfiltered(const std::vector<double>& theta) { Linearise(theta, 0); }
-
-double RecordLandscape::MisfitOf(const Causes& causes, const std::vector<double>& theta) const {
-  return refiner_.Misfit(theta, kWhiteningOrder, causes);
-}
-
-void RecordLandscape::Linearise(const std::vector<double>& theta, std::size_t whitening_order) {
-  for (Term& term : terms_) term.family.linearised_as = term.family.shape;
+void RecordLandscape::Linearise(Point at, std::size_t whitening_order) {
   view_ = {};  // two of them do not fit into a gigabyte
-  view_ = search_.Linearise(records_, gains_, theta, whitening_order, search_.Everything());
+  view_ = search_.Linearise(records_, gains_, at, whitening_order, search_.Everything());
 }
 
 double RecordLandscape::GainOf(const Hypothesis& cause, const Causes& given) const {
@@ -66,22 +63,26 @@ double RecordLandscape::GainAt(const Refined& fit, const Hypothesis& cause,
 }
 
 std::vector<Candidate> RecordLandscape::Screen(const Causes& given) const {
-  return diagnosis::Screen(EvidenceGiven(given), search_.hypotheses());
+  std::vector<Candidate> screened = diagnosis::Screen(EvidenceGiven(given), search_.hypotheses());
+  for (Candidate& candidate : screened) {
+    candidate.place = PlaceAt(view_.point, search_.hypotheses()[candidate.hypothesis]);
+  }
+  return screened;
 }
 
 double RecordLandscape::EvidenceOf(const Causes& set) const {
   return Refiner::EvidenceOfSet(view_.problem, terms_, set);
 }
 
-std::vector<double> RecordLandscape::SolutionOf(const Causes& set) const {
-  return search_.Solve(view_.problem, set);
+Point RecordLandscape::SolutionOf(const Causes& set) const {
+  return {search_.Solve(view_.problem, set), view_.point.shapes};
 }
 
-std::vector<double> RecordLandscape::SolutionAt(const Refined& fit, const Causes& set) const {
-  return search_.Solve(fit.problem, set);
+Point RecordLandscape::SolutionAt(const Refined& fit, const Causes& set) const {
+  return {search_.Solve(fit.problem, set), fit.point.shapes};
 }
 
-Refined RecordLandscape::Fit(const Causes& set, const std::vector<double>& start, int passes,
+Refined RecordLandscape::Fit(const Causes& set, const Point& start, int passes,
                              double worth) const {
   return refiner_.Fit(set, start, view_, passes, worth);
 }
@@ -91,33 +92,15 @@ Refined RecordLandscape::Refit(const Causes& set, double worth) const {
 }
 
 Refined RecordLandscape::RefineShapeOf(const Causes& set, std::size_t at, Refined fit,
-                                       double worth) {
+                                       double worth) const {
   if (!HasShape(set[at])) return fit;
   return RefineShape(refiner_, set[at], set, view_, passes_, std::move(fit), terms_, worth);
 }
 
 bool RecordLandscape::HasShape(const Hypothesis& cause) const { return HasFamily(cause, terms_); }
 
-EvidenceLandscape::AllShapes RecordLandscape::Shapes() const {
-  AllShapes shapes;
-  shapes.reserve(terms_.size());
-  for (const Term& term : terms_) shapes.push_back(term.family.shape);
-  return shapes;
-}
-
-void RecordLandscape::Restore(const AllShapes& shapes) {
-  for (std::size_t i = 0; i < terms_.size(); ++i) {
-    if (!terms_[i].family.member || terms_[i].family.shape == shapes[i]) continue;
-    Term before = terms_[i].family.member(shapes[i]);
-    before.family.linearised_as = terms_[i].family.linearised_as;
-    terms_[i] = std::move(before);
-  }
-}
-
-void RecordLandscape::TakePlace(Hypothesis& member) {
-  if (!HasShape(member)) return;
-  member.place = terms_[member.terms.front()].location.name;
-  search_.Rename(member.terms, member.place);
+std::string RecordLandscape::PlaceAt(const Point& point, const Hypothesis& cause) const {
+  return HasShape(cause) ? TermAt(terms_, point, cause.terms.front()).location.name : cause.place;
 }
 
 std::vector<ModeProbe> RecordLandscape::Probes() const {

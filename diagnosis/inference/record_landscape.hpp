@@ -1,7 +1,6 @@
 #pragma once
 // The evidence of causes in recorded data: rig, terms, records, observers, the linearisation.
 //
-// Terms    the shapes of families are those of the last RefineShapeOf or Restore.
 // Lifetime refers to rig, records, settings and terms of the caller.
 // Units    evidence in nats. Thread: blocks the caller, two threads inside.
 
@@ -17,18 +16,18 @@ class RecordLandscape final : public EvidenceLandscape {
  public:
   /// `recorded` is fitted, as spans where it has more than `effort.rows`.
   RecordLandscape(const RigView& rig, const std::vector<Record>& recorded, const Settings& settings,
-                  const Effort& effort, std::vector<Term>& terms);
+                  const Effort& effort, const std::vector<Term>& terms);
 
   /// Selects the observers of one speed of kSpeeds; invalidates the linearisation.
   void Observe(std::size_t speed);
-  [[nodiscard]] std::vector<Trajectory> RunAt(const std::vector<double>& theta) const {
-    return search_.Run(records_, gains_, theta);
+  [[nodiscard]] std::vector<Trajectory> RunAt(const Point& point) const {
+    return search_.Run(records_, gains_, point);
   }
 
   /// LineariseAt with every innovation weighed alike: no filter takes a fault for coloured noise.
-  void LineariseUnfiltered(const std::vector<double>& theta);
-  /// [nat] of these causes at theta, with a filter of its own; smaller is better.
-  [[nodiscard]] double MisfitOf(const Causes& causes, const std::vector<double>& theta) const;
+  void LineariseUnfiltered(const Point& point);
+  /// [nat] of these causes at the point, with a filter of its own; smaller is better.
+  [[nodiscard]] double MisfitOf(const Causes& causes, const Point& point) const;
 
   [[nodiscard]] const RigView& rig() const { return rig_; }
   [[nodiscard]] const std::vector<Term>& terms() const { return terms_; }
@@ -43,32 +42,29 @@ class RecordLandscape final : public EvidenceLandscape {
   }
 
   [[nodiscard]] const Causes& hypotheses() const override { return search_.hypotheses(); }
-  void LineariseAt(const std::vector<double>& theta) override;
+  void LineariseAt(const Point& point) override;
   [[nodiscard]] double GainOf(const Hypothesis& cause, const Causes& given) const override;
   [[nodiscard]] double GainAt(const Refined& fit, const Hypothesis& cause,
                               const Causes& given) const override;
   [[nodiscard]] std::vector<Candidate> Screen(const Causes& given) const override;
   [[nodiscard]] double EvidenceOf(const Causes& set) const override;
-  [[nodiscard]] std::vector<double> SolutionOf(const Causes& set) const override;
-  [[nodiscard]] std::vector<double> SolutionAt(const Refined& fit,
-                                               const Causes& set) const override;
-  [[nodiscard]] Refined Fit(const Causes& set, const std::vector<double>& start, int passes,
+  [[nodiscard]] Point SolutionOf(const Causes& set) const override;
+  [[nodiscard]] Point SolutionAt(const Refined& fit, const Causes& set) const override;
+  [[nodiscard]] Refined Fit(const Causes& set, const Point& start, int passes,
                             double worth = kAnyEvidence) const override;
   [[nodiscard]] Refined Refit(const Causes& set, double worth = kAnyEvidence) const override;
   [[nodiscard]] Refined RefineShapeOf(const Causes& set, std::size_t at, Refined fit,
-                                      double worth = kAnyEvidence) override;
+                                      double worth = kAnyEvidence) const override;
   [[nodiscard]] bool HasShape(const Hypothesis& cause) const override;
-  [[nodiscard]] AllShapes Shapes() const override;
-  void Restore(const AllShapes& shapes) override;
-  void TakePlace(Hypothesis& member) override;
+  [[nodiscard]] std::string PlaceAt(const Point& point, const Hypothesis& cause) const override;
   [[nodiscard]] std::vector<ModeProbe> Probes() const override;
   void ReportProgress(double share, const std::string& what) const override;
 
  private:
-  void Linearise(const std::vector<double>& theta, std::size_t whitening_order);
+  void Linearise(Point at, std::size_t whitening_order);
 
   const RigView& rig_;
-  std::vector<Term>& terms_;
+  const std::vector<Term>& terms_;
   const Settings& settings_;
   int passes_;
   Search search_;

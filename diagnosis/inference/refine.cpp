@@ -31,11 +31,11 @@ class LevenbergDamping {
 /// What a pass of Refiner::Approach leaves to the next one.
 struct Descent {
   Refined best;
-  std::vector<double> theta;
+  Point at;
   LevenbergDamping damping;
   Whitener whitener;
   std::shared_ptr<const Slopes> slopes;
-  bool current = false;  ///< the Jacobian was taken at best.theta
+  bool current = false;  ///< the Jacobian was taken at best.point
   int refused = 0;
 };
 
@@ -48,7 +48,7 @@ bool Shorten(const Search& search, const std::vector<Hypothesis>& causes, Descen
   constexpr int kMostRefusedHere = 8;
   if (++d.refused > (d.current ? kMostRefusedHere : kMostRefused)) return false;
   d.damping.Refuse();
-  d.theta = search.Step(d.best.problem, causes, d.best.theta, d.damping.value());
+  d.at.theta = search.Step(d.best.problem, causes, d.best.point.theta, d.damping.value());
   return true;
 }
 
@@ -56,22 +56,21 @@ bool Shorten(const Search& search, const std::vector<Hypothesis>& causes, Descen
 void ReturnToBest(Descent& d) {
   d.refused = 0;
   d.damping = {};
-  d.theta = d.best.theta;
+  d.at = d.best.point;
   d.slopes.reset();
 }
 
-/// From theta, where the model ran, with a new Jacobian if it is to be current.
+/// From where the model ran, with a new Jacobian if it is to be current.
 void StepOn(const Search& search, const std::vector<Term>& terms,
             const std::vector<Hypothesis>& causes, const std::vector<Trajectory>& runs,
             Descent& d) {
   if (d.current) {
-    d.slopes = std::make_shared<const Slopes>(search.rig(), runs, terms, d.theta,
-                                              search.NuisancesAnd(causes));
+    d.slopes = search.SlopesOf(runs, d.at, search.NuisancesAnd(causes));
   }
-  d.best.problem = search.About(d.slopes->Sum(runs, d.whitener), d.theta);
+  d.best.problem = search.About(d.slopes->Sum(runs, d.whitener), d.at.theta);
   d.best.evidence = Refiner::EvidenceOfSet(d.best.problem, terms, causes);
   d.damping.Accept();
-  d.theta = search.Step(d.best.problem, causes, d.best.theta, d.damping.value());
+  d.at.theta = search.Step(d.best.problem, causes, d.best.point.theta, d.damping.value());
 }
 
 }  // namespace
@@ -116,20 +115,13 @@ double Refiner::EvidenceOfSet(const LinearProblem& problem, const std::vector<Te
   return evidence;
 }
 
-bool Refiner::TakenAt(const std::vector<double>& theta, const View& view) const {
-  return view.theta == theta && std::all_of(terms_.begin(), terms_.end(), [](const Term& term) {
-           return term.family.shape == term.family.linearised_as;
-         });
+Runs Refiner::RunAt(const Point& point, const View& view) const {
+  if (view.runs && view.point == point) return view.runs;
+  return std::make_shared<const std::vector<Trajectory>>(search_.Run(records_, gains_, point));
 }
 
-Runs Refiner::RunAt(const std::vector<double>& theta, const View& view) const {
-  if (view.runs && TakenAt(theta, view)) return view.runs;
-  return std::make_shared<const std::vector<Trajectory>>(search_.Run(records_, gains_, theta));
-}
-
-void Refiner::MinimiseByChords(const View& view, const std::vector<Hypothesis>& causes,
-                               std::vector<double> theta, int passes, double worth,
-                               Refined& best) const {
+void Refiner::MinimiseByChords(const View& view, const std::vector<Hypothesis>& causes, Point at,
+                               int passes, double worth, Refined& best) const {
   constexpr double kConverged = 0.3;  // [nat]
   // With a Jacobian of this very point a step that fails twice fails for the model's own bends.
   const int most_refused = view.close ? 1 : 4;
@@ -137,50 +129,53 @@ void Refiner::MinimiseByChords(const View& view, const std::vector<Hypothesis>& 
   LevenbergDamping damping;
   int refused = 0;
   for (int pass = 0; pass < passes;) {
-    Runs runs = RunAt(theta, view);
+    Runs runs = RunAt(at, view);
     view.slopes->Renew(*runs, view.whitener, sum);
-    const double cost = 0.5 * (sum.ete + Penalty(theta, causes));
+    const double cost = 0.5 * (sum.ete + Penalty(at.theta, causes));
     const double gained = best.cost - cost;
     if (!std::isfinite(cost) || gained < -kConverged) {
       if (++refused > most_refused) return;
       damping.Refuse();
       if (best.ok && best.problem.jtj.size() > 0) {
         if (EvidenceOfSet(best.problem, terms_, causes) < worth) return;
-        theta = search_.Step(best.problem, causes, best.theta, damping.value());
+        at.theta = search_.Step(best.problem, causes, best.point.theta, damping.value());
         // A step that cannot gain is not run; the third one must gain what would decide.
         const double least = refused > 1 ? kDecisive : kConverged;
-        if (best.cost - LinearCost(best.problem, causes, theta) < least) return;
+        if (best.cost - LinearCost(best.problem, causes, at.theta) < least) return;
       } else {
         // The start itself diverges: approach the healthy rig by halves.
-        for (std::size_t i = 0; i < theta.size(); ++i) {
-          theta[i] = 0.5 * (theta[i] + terms_[i].healthy_mean);
+        for (std::size_t i = 0; i < terms_.size(); ++i) {
+          at.theta[i] = 0.5 * (at.theta[i] + terms_[i].healthy_mean);
         }
       }
       continue;
     }
     best.cost = cost;
-    best.theta = theta;
+    best.point = at;
     best.runs = std::move(runs);
-    best.problem = search_.About(sum, theta);
+    best.problem = search_.About(sum, at.theta);
     best.ok = true;
     if (gained < kConverged) return;
     damping.Accept();
-    theta = search_.Step(best.problem, causes, best.theta, damping.value());
+    at.theta = search_.Step(best.problem, causes, at.theta, damping.value());
     ++pass;
   }
 }
 
-Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> start,
-                     const View& view, int passes, double worth) const {
+bool Refiner::BendsFrom(const View& view, const std::vector<Hypothesis>& causes,
+                        const Point& point) const {
+  return std::any_of(causes.begin(), causes.end(), [&](const Hypothesis& h) {
+    return std::any_of(h.terms.begin(), h.terms.end(), [&](std::size_t i) {
+      return !terms_[i].linear || point.shapes[i] != view.point.shapes[i];
+    });
+  });
+}
+
+Refined Refiner::Fit(const std::vector<Hypothesis>& causes, Point start, const View& view,
+                     int passes, double worth) const {
+  const bool nonlinear = !view.close && BendsFrom(view, causes, start);
   Refined best;
   MinimiseByChords(view, causes, std::move(start), passes, worth, best);
-  const bool nonlinear =
-      !view.close && std::any_of(causes.begin(), causes.end(), [this](const Hypothesis& h) {
-        return std::any_of(h.terms.begin(), h.terms.end(), [this](std::size_t i) {
-          const Family& family = terms_[i].family;
-          return !terms_[i].linear || family.shape != family.linearised_as;
-        });
-      });
   // With a Jacobian of an earlier point the steps end before the minimum of a nonlinear model. It
   // is renewed while the linear prediction is better than the model's run by more than this.
   constexpr double kPredictionError = 1.0;  // [nat]
@@ -189,18 +184,18 @@ Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> 
     const bool first = renewal == 0 && nonlinear;
     if (!first && best.cost - PredictedCost(best.problem, causes) < kPredictionError) break;
     if (EvidenceOfSet(best.problem, terms_, causes) < worth) break;
-    const bool known = TakenAt(best.theta, view);
+    const bool known = view.point == best.point;
     if (known && passes > 1) break;  // its step was tried
     Runs runs = std::exchange(best.runs, nullptr);
     View here;
     if (!known) {
-      here = search_.Linearise(std::move(runs), best.theta, view.whitener,
+      here = search_.Linearise(std::move(runs), best.point, view.whitener,
                                search_.NuisancesAnd(causes));
       here.runs = nullptr;
       best.problem = here.problem;
     }
-    MinimiseByChords(known ? view : here, causes, search_.Solve(best.problem, causes), passes,
-                     worth, best);
+    MinimiseByChords(known ? view : here, causes,
+                     {search_.Solve(best.problem, causes), best.point.shapes}, passes, worth, best);
     if (!best.runs) break;  // no step helped
   }
   best.runs = nullptr;
@@ -212,31 +207,29 @@ Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> 
   return best;
 }
 
-Refiner::Along Refiner::StepAlong(const std::vector<Hypothesis>& causes,
-                                  const std::vector<double>& theta, const View& view, double width,
-                                  const std::function<void(double)>& become) const {
+Refiner::Along Refiner::StepAlong(const std::vector<Hypothesis>& causes, const Point& at,
+                                  const View& view, double width,
+                                  const std::function<Point(double)>& beside) const {
   constexpr double kApart = 0.05;  // of the width
   constexpr double kMost = 1.5;
-  View here =
-      search_.Linearise(RunAt(theta, view), theta, view.whitener, search_.NuisancesAnd(causes));
+  View here = search_.Linearise(RunAt(at, view), at, view.whitener, search_.NuisancesAnd(causes));
   here.runs = nullptr;
   const auto sum = [&](double by) {
-    become(by);
     NormalEquations shifted = here.sum;
-    here.slopes->Renew(search_.Run(records_, gains_, theta), view.whitener, shifted);
+    here.slopes->Renew(search_.Run(records_, gains_, beside(by)), view.whitener, shifted);
     return shifted;
   };
   const NormalEquations below = sum(-kApart * width);
   const NormalEquations above = sum(kApart * width);
-  become(0.0);
   here.close = true;
-  return {search_.StepAlong(causes, theta, here.sum, below, above, kApart * width, kMost * width),
-          here};
+  return {
+      search_.StepAlong(causes, at.theta, here.sum, below, above, kApart * width, kMost * width),
+      here};
 }
 
-double Refiner::Misfit(const std::vector<double>& theta, std::size_t whitening_order,
+double Refiner::Misfit(const Point& point, std::size_t whitening_order,
                        const std::vector<Hypothesis>& causes) const {
-  const auto runs = search_.Run(records_, gains_, theta);
+  const auto runs = search_.Run(records_, gains_, point);
   const Whitener whitener = MakeWhitener(runs, axes_, whitening_order);
   std::size_t values = 0;
   // Not just their number: of innovations that swing, or belong to some rows alone, the filter
@@ -245,31 +238,30 @@ double Refiner::Misfit(const std::vector<double>& theta, std::size_t whitening_o
   double log_power = 0.0;
   for (const auto& filter : whitener.filter) log_power -= 2.0 * std::log(filter.front());
   const double samples = static_cast<double>(values) / static_cast<double>(axes_);
-  return 0.5 * (log_power * samples + squared_sum + Penalty(theta, causes));
+  return 0.5 * (log_power * samples + squared_sum + Penalty(point.theta, causes));
 }
 
-Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order, int passes,
+Refined Refiner::Approach(Point start, std::size_t whitening_order, int passes,
                           const std::vector<Hypothesis>& causes) const {
   constexpr double kConverged = 1.0;  // [nat]
   constexpr double kFar = 100.0;      // [nat] a step that gains more has left its linearisation
   Descent d;
-  d.theta = std::move(start);
+  d.at = std::move(start);
   for (int pass = 0; pass < passes;) {
-    auto runs = search_.Run(records_, gains_, d.theta);
-    const double gained =
-        pass == 0
-            ? std::numeric_limits<double>::infinity()
-            : d.best.cost - 0.5 * (SquaredSum(runs, axes_, d.whitener) + Penalty(d.theta, causes));
+    auto runs = search_.Run(records_, gains_, d.at);
+    const double gained = pass == 0 ? std::numeric_limits<double>::infinity()
+                                    : d.best.cost - 0.5 * (SquaredSum(runs, axes_, d.whitener) +
+                                                           Penalty(d.at.theta, causes));
     if (pass > 0 && !(std::isfinite(gained) && gained > -kConverged)) {
       if (Shorten(search_, causes, d)) continue;
       if (d.current) break;
       ReturnToBest(d);
-      runs = search_.Run(records_, gains_, d.theta);
+      runs = search_.Run(records_, gains_, d.at);
     }
     d.whitener = search_.WhitenerOf(runs, whitening_order);
-    d.best.cost = 0.5 * (SquaredSum(runs, axes_, d.whitener) + Penalty(d.theta, causes));
+    d.best.cost = 0.5 * (SquaredSum(runs, axes_, d.whitener) + Penalty(d.at.theta, causes));
     if (!std::isfinite(d.best.cost)) break;
-    d.best.theta = d.theta;
+    d.best.point = d.at;
     d.best.ok = true;
     d.refused = 0;
     if (gained < kConverged && d.current) break;

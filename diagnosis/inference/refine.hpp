@@ -29,12 +29,12 @@ namespace levitas::diagnosis {
 inline constexpr double kAnyEvidence = -std::numeric_limits<double>::infinity();
 
 struct Refined {
-  std::vector<double> theta;
+  Point point;
   double evidence{};
   bool ok{};
-  LinearProblem problem;                                 ///< about theta
-  double cost{std::numeric_limits<double>::infinity()};  ///< [nat] of data and priors at theta
-  Runs runs;                                             ///< at theta, while it is being fitted
+  LinearProblem problem;                                 ///< about the point
+  double cost{std::numeric_limits<double>::infinity()};  ///< [nat] of data and priors there
+  Runs runs;                                             ///< there, while it is being fitted
 };
 
 class Refiner {
@@ -43,27 +43,28 @@ class Refiner {
           const Gains& gains, std::size_t axes)
       : search_(search), terms_(terms), records_(records), gains_(gains), axes_(axes) {}
 
+  /// `start` has the shapes, which a fit does not move.
   /// `view` has everything linearised on the records of this refiner, or is close. Stops
   /// early, without a new Jacobian or a shorter step, where even the linearised optimum stays below
   /// the evidence `worth`. A close Jacobian is never renewed.
-  [[nodiscard]] Refined Fit(const std::vector<Hypothesis>& causes, std::vector<double> start,
-                            const View& view, int passes, double worth = kAnyEvidence) const;
+  [[nodiscard]] Refined Fit(const std::vector<Hypothesis>& causes, Point start, const View& view,
+                            int passes, double worth = kAnyEvidence) const;
   struct Along {
     Search::ShapeStep step;
     View here;  ///< nuisances and causes, without runs
   };
-  /// Newton's step of all parameters and of a shape parameter without analytic slope. `become`
-  /// sets it to another value, relative to the present one in its logarithm.
-  [[nodiscard]] Along StepAlong(const std::vector<Hypothesis>& causes,
-                                const std::vector<double>& theta, const View& view, double width,
-                                const std::function<void(double)>& become) const;
+  /// Newton's step of all parameters and of a shape parameter without analytic slope. `beside` is
+  /// the point with another value of that one, relative to that of `at` in its logarithm.
+  [[nodiscard]] Along StepAlong(const std::vector<Hypothesis>& causes, const Point& at,
+                                const View& view, double width,
+                                const std::function<Point(double)>& beside) const;
   /// Nuisances and causes, from far away. The whitening filter is re-estimated at every pass, since
   /// a residual that is not calibrated yet is not noise and must not be weighted down as such.
-  [[nodiscard]] Refined Approach(std::vector<double> start, std::size_t whitening_order, int passes,
+  [[nodiscard]] Refined Approach(Point start, std::size_t whitening_order, int passes,
                                  const std::vector<Hypothesis>& causes = {}) const;
-  /// [nat] cost of nuisances and causes at theta, whitened by their own innovations; compares
+  /// [nat] cost of nuisances and causes at the point, whitened by their own innovations; compares
   /// starts, and answers whose noise differs.
-  [[nodiscard]] double Misfit(const std::vector<double>& theta, std::size_t whitening_order,
+  [[nodiscard]] double Misfit(const Point& point, std::size_t whitening_order,
                               const std::vector<Hypothesis>& causes = {}) const;
   /// Evidence of a set on a linearisation of everything.
   [[nodiscard]] static double EvidenceOfSet(const LinearProblem& problem,
@@ -71,12 +72,13 @@ class Refiner {
                                             const std::vector<Hypothesis>& causes);
 
  private:
-  /// Improves `best` from theta on with the Jacobian of `view`, until a step gains too little.
-  void MinimiseByChords(const View& view, const std::vector<Hypothesis>& causes,
-                        std::vector<double> theta, int passes, double worth, Refined& best) const;
-  [[nodiscard]] Runs RunAt(const std::vector<double>& theta, const View& view) const;
-  /// The linearisation was taken at theta, with the present shapes of all families.
-  [[nodiscard]] bool TakenAt(const std::vector<double>& theta, const View& view) const;
+  /// Improves `best` from `at` on with the Jacobian of `view`, until a step gains too little.
+  void MinimiseByChords(const View& view, const std::vector<Hypothesis>& causes, Point at,
+                        int passes, double worth, Refined& best) const;
+  [[nodiscard]] Runs RunAt(const Point& point, const View& view) const;
+  /// The linearisation is that of other shapes of the causes, or a cause is no straight line.
+  [[nodiscard]] bool BendsFrom(const View& view, const std::vector<Hypothesis>& causes,
+                               const Point& point) const;
   /// [nat] cost at the minimum of the linearised model.
   [[nodiscard]] double PredictedCost(const LinearProblem& problem,
                                      const std::vector<Hypothesis>& causes) const;

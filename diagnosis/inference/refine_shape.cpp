@@ -16,7 +16,7 @@ constexpr double kWorth = 10.0;
 class Members {
  public:
   Members(const Refiner& refiner, const Hypothesis& cause, const std::vector<Hypothesis>& causes,
-          const View& view, int passes, std::vector<Term>& terms)
+          const View& view, int passes, const std::vector<Term>& terms)
       : refiner_(refiner),
         cause_(cause),
         causes_(causes),
@@ -26,42 +26,40 @@ class Members {
 
   [[nodiscard]] const Family& family() const { return terms_[cause_.terms.front()].family; }
 
-  void Become(std::size_t parameter, double log_value) {
-    for (const std::size_t i : cause_.terms) {
-      if (!terms_[i].family.member) continue;
-      Family::Shape shape = terms_[i].family.shape;
-      shape[parameter] = std::exp(log_value);
-      Term other = terms_[i].family.member(shape);
-      other.family.linearised_as = terms_[i].family.linearised_as;
-      terms_[i] = std::move(other);
-    }
-  }
-
-  /// A better value of one parameter than the present one, if there is one.
-  Refined Improve(std::size_t parameter, double width, Refined start) {
-    const double here = std::log(family().shape[parameter]);
-    const auto [step, view] = refiner_.StepAlong(causes_, start.theta, view_, width,
-                                                 [&](double by) { Become(parameter, here + by); });
-    std::vector<double> theta = step.theta;
+  /// A better value of one parameter than that of the start, if there is one.
+  [[nodiscard]] Refined Improve(std::size_t parameter, double width, Refined start) const {
+    const double here = std::log(start.point.shapes[cause_.terms.front()][parameter]);
+    const auto [step, view] =
+        refiner_.StepAlong(causes_, start.point, view_, width,
+                           [&](double by) { return Moved(start.point, parameter, here + by); });
     for (double share = 1.0; share > kLeast; share *= 0.3) {
-      for (std::size_t i = 0; i < theta.size(); ++i) {
-        theta[i] = start.theta[i] + share * (step.theta[i] - start.theta[i]);
+      Point at = Moved(start.point, parameter, here + share * step.step);
+      for (std::size_t i = 0; i < at.theta.size(); ++i) {
+        at.theta[i] += share * (step.theta[i] - at.theta[i]);
       }
-      Become(parameter, here + share * step.step);
-      Refined fit = refiner_.Fit(causes_, theta, view, passes_, start.evidence);
+      Refined fit = refiner_.Fit(causes_, std::move(at), view, passes_, start.evidence);
       if (fit.ok && fit.evidence > start.evidence) return fit;
     }
-    Become(parameter, here);
+    // Rounded by its logarithm, as those that were tried.
+    start.point = Moved(std::move(start.point), parameter, here);
     return start;
   }
 
  private:
+  /// With another value of one parameter of the shape.
+  [[nodiscard]] Point Moved(Point point, std::size_t parameter, double log_value) const {
+    for (const std::size_t i : cause_.terms) {
+      if (terms_[i].family.member) point.shapes[i][parameter] = std::exp(log_value);
+    }
+    return point;
+  }
+
   const Refiner& refiner_;
   const Hypothesis& cause_;
   const std::vector<Hypothesis>& causes_;
   const View& view_;
   int passes_;
-  std::vector<Term>& terms_;
+  const std::vector<Term>& terms_;
 };
 
 }  // namespace
@@ -73,8 +71,8 @@ bool HasFamily(const Hypothesis& cause, const std::vector<Term>& terms) {
 
 Refined RefineShape(const Refiner& refiner, const Hypothesis& cause,
                     const std::vector<Hypothesis>& causes, const View& view, int passes,
-                    Refined start, std::vector<Term>& terms, double worth) {
-  Members members(refiner, cause, causes, view, passes, terms);
+                    Refined start, const std::vector<Term>& terms, double worth) {
+  const Members members(refiner, cause, causes, view, passes, terms);
   Refined best = std::move(start);
   const Family::Shape width = members.family().log_width;
   // A parameter whose trials failed fails again until another one has moved the fit.

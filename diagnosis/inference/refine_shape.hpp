@@ -20,12 +20,12 @@ namespace levitas::diagnosis {
 /// True when the hypothesis is a member of a family.
 [[nodiscard]] bool HasFamily(const Hypothesis& cause, const std::vector<Term>& terms);
 
-/// `terms` are those of the refiner; those of `cause` become the best member's. `start` is the fit
-/// of `causes`, `cause` among them, on `view`. Returns the fit with the best member. Ends when the
-/// evidence `worth` is out of reach though all further rounds gained as much as the last one.
+/// `terms` are those of the refiner. `start` is the fit of `causes`, `cause` among them, on `view`.
+/// Returns the fit with the best member, whose shape is that of its point. Ends when the evidence
+/// `worth` is out of reach though all further rounds gained as much as the last one.
 [[nodiscard]] Refined RefineShape(const Refiner& refiner, const Hypothesis& cause,
                                   const std::vector<Hypothesis>& causes, const View& view,
-                                  int passes, Refined start, std::vector<Term>& terms,
+                                  int passes, Refined start, const std::vector<Term>& terms,
                                   double worth = kAnyEvidence);
 
 }  // namespace levitas::diagnosis

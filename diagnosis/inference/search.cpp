@@ -58,44 +58,52 @@ Gains Search::DesignGains(const std::vector<Record>& records, const ObserverSpee
 }
 
 std::vector<Trajectory> Search::Run(const std::vector<Record>& records, const Gains& gains,
-                                    const std::vector<double>& theta) const {
+                                    const Point& point) const {
+  const TermsAt at(terms_, point);
   std::vector<Trajectory> runs(records.size());
   std::vector<std::size_t> rows;
   rows.reserve(records.size());
   for (const Record& record : records) rows.push_back(record.rows.size());
   LongestFirst(rows, [&](std::size_t i) {
-    runs[i] = RunModel(rig_, records[i], gains[i], terms_, theta, kSettling);
+    runs[i] = RunModel(rig_, records[i], gains[i], at.terms(), point.theta, kSettling);
   });
   return runs;
 }
 
 std::vector<Trajectory> Search::RunAlone(const std::vector<Record>& records, const Gains& gains,
-                                         const std::vector<double>& theta) const {
+                                         const Point& point) const {
+  const TermsAt at(terms_, point);
   std::vector<Trajectory> runs;
   runs.reserve(records.size());
   for (std::size_t i = 0; i < records.size(); ++i) {
-    runs.push_back(RunModel(rig_, records[i], gains[i], terms_, theta, kSettling));
+    runs.push_back(RunModel(rig_, records[i], gains[i], at.terms(), point.theta, kSettling));
   }
   return runs;
 }
 
-View Search::Linearise(const std::vector<Record>& records, const Gains& gains,
-                       const std::vector<double>& theta, std::size_t whitening_order,
-                       const std::vector<std::size_t>& chosen) const {
-  auto runs = std::make_shared<const std::vector<Trajectory>>(Run(records, gains, theta));
-  const Whitener whitener = WhitenerOf(*runs, whitening_order);
-  return Linearise(std::move(runs), theta, whitener, chosen);
+std::shared_ptr<const Slopes> Search::SlopesOf(const std::vector<Trajectory>& runs,
+                                               const Point& point,
+                                               const std::vector<std::size_t>& chosen) const {
+  return std::make_shared<const Slopes>(rig_, runs, TermsAt(terms_, point).terms(), point.theta,
+                                        chosen);
 }
 
-View Search::Linearise(Runs runs, const std::vector<double>& theta, const Whitener& whitener,
+View Search::Linearise(const std::vector<Record>& records, const Gains& gains, const Point& point,
+                       std::size_t whitening_order, const std::vector<std::size_t>& chosen) const {
+  auto runs = std::make_shared<const std::vector<Trajectory>>(Run(records, gains, point));
+  const Whitener whitener = WhitenerOf(*runs, whitening_order);
+  return Linearise(std::move(runs), point, whitener, chosen);
+}
+
+View Search::Linearise(Runs runs, const Point& point, const Whitener& whitener,
                        const std::vector<std::size_t>& chosen) const {
   View view;
-  view.theta = theta;
+  view.point = point;
   view.runs = std::move(runs);
   view.whitener = whitener;
-  view.slopes = std::make_shared<const Slopes>(rig_, *view.runs, terms_, theta, chosen);
+  view.slopes = SlopesOf(*view.runs, point, chosen);
   view.sum = view.slopes->Sum(*view.runs, whitener);
-  view.problem = About(view.sum, theta);
+  view.problem = About(view.sum, point.theta);
   return view;
 }
 
@@ -144,17 +152,11 @@ Search::ShapeStep Search::StepAlong(const std::vector<Hypothesis>& causes,
   return {beside.step, Unscaled(beside.theta)};
 }
 
-void Search::Rename(const std::vector<std::size_t>& terms, const std::string& place) {
-  for (Hypothesis& h : hypotheses_) {
-    if (h.terms == terms) h.place = place;
-  }
-}
-
-std::vector<double> Search::HealthyParameters() const {
+Point Search::HealthyPoint() const {
   std::vector<double> theta;
   theta.reserve(terms_.size());
   for (const Term& term : terms_) theta.push_back(term.healthy_mean);
-  return theta;
+  return PointAt(terms_, std::move(theta));
 }
 
 std::vector<std::size_t> Search::Nuisances() const { return NuisancesAnd({}); }

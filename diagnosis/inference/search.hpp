@@ -4,11 +4,11 @@
 // Thread  blocks the caller, two threads inside.
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "diagnosis/inference/diagnose.hpp"
 #include "diagnosis/model/observer_speed.hpp"
+#include "diagnosis/model/point.hpp"
 #include "diagnosis/model/slopes.hpp"
 
 namespace levitas::diagnosis {
@@ -21,8 +21,8 @@ using Runs = std::shared_ptr<const std::vector<Trajectory>>;
 
 /// One linearisation, on the records it was made with.
 struct View {
-  std::vector<double> theta;  ///< where it was taken
-  bool close{};               ///< to what is fitted with it, shapes included
+  Point point;   ///< where it was taken
+  bool close{};  ///< to what is fitted with it, shapes included
   Runs runs;
   Whitener whitener;
   std::shared_ptr<const Slopes> slopes;
@@ -44,18 +44,20 @@ class Search {
   [[nodiscard]] Gains DesignGains(const std::vector<Record>& records,
                                   const ObserverSpeed& speed) const;
   [[nodiscard]] std::vector<Trajectory> Run(const std::vector<Record>& records, const Gains& gains,
-                                            const std::vector<double>& theta) const;
+                                            const Point& point) const;
   /// The same in the caller's thread alone, for callers that have several.
   [[nodiscard]] std::vector<Trajectory> RunAlone(const std::vector<Record>& records,
-                                                 const Gains& gains,
-                                                 const std::vector<double>& theta) const;
-  /// Runs and linearises. Terms outside `chosen` get sensitivities of zero.
+                                                 const Gains& gains, const Point& point) const;
+  /// Derivatives along runs at the point. Terms outside `chosen` get sensitivities of zero.
+  [[nodiscard]] std::shared_ptr<const Slopes> SlopesOf(
+      const std::vector<Trajectory>& runs, const Point& point,
+      const std::vector<std::size_t>& chosen) const;
+  /// Runs and linearises.
   [[nodiscard]] View Linearise(const std::vector<Record>& records, const Gains& gains,
-                               const std::vector<double>& theta, std::size_t whitening_order,
+                               const Point& point, std::size_t whitening_order,
                                const std::vector<std::size_t>& chosen) const;
   /// The same for existing runs, with a previous whitening filter.
-  [[nodiscard]] View Linearise(Runs runs, const std::vector<double>& theta,
-                               const Whitener& whitener,
+  [[nodiscard]] View Linearise(Runs runs, const Point& point, const Whitener& whitener,
                                const std::vector<std::size_t>& chosen) const;
   /// Sums of runs at theta as a problem about the nominal rig.
   [[nodiscard]] LinearProblem About(const NormalEquations& sum,
@@ -82,10 +84,8 @@ class Search {
 
   [[nodiscard]] const RigView& rig() const { return rig_; }
   [[nodiscard]] const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
-  /// Moves a member of a family to another place.
-  void Rename(const std::vector<std::size_t>& terms, const std::string& place);
-  /// Parameters of the healthy rig: the start of every search.
-  [[nodiscard]] std::vector<double> HealthyParameters() const;
+  /// Where the healthy rig is: the start of every search.
+  [[nodiscard]] Point HealthyPoint() const;
   /// In units of Term::scale() from the healthy rig.
   [[nodiscard]] Eigen::VectorXd Scaled(const std::vector<double>& theta) const;
   [[nodiscard]] std::vector<std::size_t> Nuisances() const;

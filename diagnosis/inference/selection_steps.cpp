@@ -24,7 +24,7 @@ void DropSuperfluous(const EvidenceLandscape& landscape, const SelectionRules& r
     const std::vector<Hypothesis> rest = Without(found.causes, i);
     if (landscape.GainAt(fit, found.causes[i], rest) < rules.judging.decisive_nat) {
       found.causes = rest;
-      found.theta = landscape.SolutionAt(fit, found.causes);
+      found.point = landscape.SolutionAt(fit, found.causes);
     } else {
       ++i;
     }
@@ -70,8 +70,8 @@ void TryProbes(const EvidenceLandscape& landscape, const SelectionRules& rules,
     const Hypothesis& mode = landscape.hypotheses()[probe.hypothesis];
     std::vector<Hypothesis> causes = found.causes;
     causes.push_back(mode);
-    std::vector<double> start = found.theta;
-    start[probe.term] = probe.theta;
+    Point start = found.point;
+    start.theta[probe.term] = probe.theta;
     Refined fit = landscape.Fit(causes, start, rules.effort.passes);
     if (!fit.ok) continue;
     found.refitted.push_back(
@@ -82,12 +82,12 @@ void TryProbes(const EvidenceLandscape& landscape, const SelectionRules& rules,
 
 /// A cause that is far beyond doubt though its fit has not confirmed it yet: a large step may need
 /// more passes than were spent on it. It is taken, and linearised anew.
-void TakeUnconfirmed(EvidenceLandscape& landscape, const SelectionRules& rules,
+void TakeUnconfirmed(const EvidenceLandscape& landscape, const SelectionRules& rules,
                      std::size_t hypothesis, CauseSelection& found) {
   found.causes.push_back(landscape.hypotheses()[hypothesis]);
-  found.theta = landscape.SolutionOf(found.causes);
+  found.point = landscape.SolutionOf(found.causes);
   if (rules.effort.first_cause_only || !landscape.HasShape(found.causes.back())) return;
-  Refined fit = landscape.Fit(found.causes, found.theta, rules.effort.passes);
+  Refined fit = landscape.Fit(found.causes, found.point, rules.effort.passes);
   if (fit.ok) RefineLastShape(landscape, fit, found);
 }
 
@@ -128,7 +128,7 @@ void TryEffectWith(const EvidenceLandscape& landscape, const SelectionRules& rul
 }
 
 bool MergeOnce(EvidenceLandscape& landscape, const SelectionRules& rules, CauseSelection& found) {
-  const Refined whole = landscape.Fit(found.causes, found.theta, 2);
+  const Refined whole = landscape.Fit(found.causes, found.point, 2);
   if (!whole.ok) return false;
   const double explained = whole.evidence - landscape.EvidenceOf(OfExactForm(found.causes));
   const double worth = whole.evidence - Enough(rules.judging, explained);
@@ -143,25 +143,24 @@ bool MergeOnce(EvidenceLandscape& landscape, const SelectionRules& rules, CauseS
     }
   }
   if (!best.fit.ok || best.fit.evidence < worth) return false;
-  found.theta = best.fit.theta;
+  found.point = best.fit.point;
   found.causes = std::move(best.causes);
-  landscape.LineariseAt(found.theta);
+  landscape.LineariseAt(found.point);
   return true;
 }
 
 }  // namespace
 
-void RefineLastShape(EvidenceLandscape& landscape, Refined& fit, CauseSelection& found) {
-  Hypothesis& last = found.causes.back();
+void RefineLastShape(const EvidenceLandscape& landscape, Refined& fit, CauseSelection& found) {
+  const Hypothesis& last = found.causes.back();
   if (!landscape.HasShape(last)) return;
   landscape.ReportProgress(0.5,
                            fmt::format("finding the form of {}", effect::At(last.effect).name));
   fit = landscape.RefineShapeOf(found.causes, found.causes.size() - 1, std::move(fit));
-  found.theta = fit.theta;
-  landscape.TakePlace(last);
+  found.point = fit.point;
 }
 
-bool AddCause(EvidenceLandscape& landscape, const SelectionRules& rules, double share,
+bool AddCause(const EvidenceLandscape& landscape, const SelectionRules& rules, double share,
               CauseSelection& found) {
   const std::vector<Candidate> screened = landscape.Screen(found.causes);
   if (screened.empty()) return false;
@@ -169,7 +168,7 @@ bool AddCause(EvidenceLandscape& landscape, const SelectionRules& rules, double 
       rules.effort.first_cause_only ? std::vector<ModeProbe>{} : landscape.Probes();
   const double first = screened.front().score;
   if (!(first > rules.judging.decisive_nat) && probes.empty()) return false;
-  const Refined before = landscape.Fit(found.causes, found.theta, 2);
+  const Refined before = landscape.Fit(found.causes, found.point, 2);
   Bar bar;
   bar.null = before.ok ? before.evidence : landscape.EvidenceOf(found.causes);
   bar.enough = Enough(rules.judging, bar.null - landscape.EvidenceOf(OfExactForm(found.causes)));
@@ -182,7 +181,7 @@ bool AddCause(EvidenceLandscape& landscape, const SelectionRules& rules, double 
     TakeUnconfirmed(landscape, rules, screened.front().hypothesis, found);
     return true;
   }
-  found.theta = best.fit.theta;
+  found.point = best.fit.point;
   found.causes = std::move(best.causes);
   if (!rules.effort.first_cause_only) RefineLastShape(landscape, best.fit, found);
   DropSuperfluous(landscape, rules, best.fit, found);
@@ -208,7 +207,7 @@ void DropUnproven(const EvidenceLandscape& landscape, const SelectionRules& rule
     }
     if (least >= rules.judging.decisive_nat) return;
     found.causes = Without(found.causes, weakest);
-    found.theta = found.causes.empty() ? found.calibrated : landscape.SolutionOf(found.causes);
+    found.point = found.causes.empty() ? found.WithoutCauses() : landscape.SolutionOf(found.causes);
   }
 }
 

@@ -11,11 +11,11 @@ namespace levitas::diagnosis {
 
 /// Screens, refits the best few and adds the best, if it gains enough; earlier causes that it makes
 /// superfluous go. `share` of the whole diagnosis is done. False: none gains enough.
-[[nodiscard]] bool AddCause(EvidenceLandscape& landscape, const SelectionRules& rules, double share,
-                            CauseSelection& found);
+[[nodiscard]] bool AddCause(const EvidenceLandscape& landscape, const SelectionRules& rules,
+                            double share, CauseSelection& found);
 
 /// `fit` of all causes becomes that with the best shape of the last one.
-void RefineLastShape(EvidenceLandscape& landscape, Refined& fit, CauseSelection& found);
+void RefineLastShape(const EvidenceLandscape& landscape, Refined& fit, CauseSelection& found);
 
 /// Replaces two causes, or all, by a single effect that explains the data as well: forward
 /// selection may have imitated it by several.

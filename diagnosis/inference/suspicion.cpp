@@ -20,15 +20,14 @@ constexpr double kSpokenFor = 0.5;
 
 /// Fits the candidate's hypothesis and gives it the score of the nonlinear model, validation data
 /// included: chance that was fitted does not come again where nothing was.
-Refined Confirm(const RecordLandscape& landscape, const std::vector<double>& calibrated,
-                Candidate& candidate) {
+Refined Confirm(const RecordLandscape& landscape, const Point& calibrated, Candidate& candidate) {
   const std::vector<Hypothesis> causes{landscape.hypotheses()[candidate.hypothesis]};
   landscape.ReportProgress(0.88, fmt::format("refitting {}", effect::At(candidate.effect).name));
   const Refined before = landscape.Fit({}, calibrated, 1);
   Refined fit = landscape.Refit(causes);
   if (!before.ok || !fit.ok) return {};
   candidate.score = std::min(candidate.score, fit.evidence - before.evidence) +
-                    HeldGain(landscape.RunAt(before.theta), landscape.RunAt(fit.theta),
+                    HeldGain(landscape.RunAt(before.point), landscape.RunAt(fit.point),
                              landscape.view().whitener);
   candidate.refitted = true;
   return fit;
@@ -37,7 +36,7 @@ Refined Confirm(const RecordLandscape& landscape, const std::vector<double>& cal
 void Suspect(CauseSelection& found, const Hypothesis& cause, Refined fit, Doubt doubt,
              double probability) {
   found.causes = {cause};
-  found.theta = std::move(fit.theta);
+  found.point = std::move(fit.point);
   found.doubt = doubt;
   found.probability = probability;
 }
@@ -48,7 +47,7 @@ bool SuspectLeader(const RecordLandscape& landscape, const Judging& judging,
   if (found.candidates.empty() || !(ProbabilityOfLeader(found.candidates, tie_nat) > kLikely))
     return false;
   const std::size_t hypothesis = found.candidates.front().hypothesis;
-  Refined fit = Confirm(landscape, found.calibrated, found.candidates.front());
+  Refined fit = Confirm(landscape, found.WithoutCauses(), found.candidates.front());
   SortByScore(found.candidates);
   if (!fit.ok || found.candidates.front().hypothesis != hypothesis) return false;
   const double probability = ProbabilityOfLeader(found.candidates, tie_nat);
@@ -72,7 +71,7 @@ std::optional<std::size_t> AloneOf(const RecordLandscape& landscape, std::size_t
 void SuspectNumber(const RecordLandscape& landscape, const Judging& judging,
                    CauseSelection& found) {
   const Fit posterior = landscape.EvidenceGiven({}).Solve();
-  const auto moved = FurthestNumber(landscape.terms(), posterior, found.calibrated);
+  const auto moved = FurthestNumber(landscape.terms(), posterior, found.calibrated.theta);
   if (!moved || !(moved->chance < judging.number_chance)) return;
   const auto hypothesis = AloneOf(landscape, moved->term);
   if (!hypothesis) return;

@@ -21,10 +21,10 @@ constexpr std::size_t kJointRows = 30'000;
 constexpr int kHeldPasses = 12;
 constexpr int kFreePasses = 12;
 
-/// Causes, theta held to the file, and the fit that is free within the tolerances.
+/// Causes, the point held to the file, and the fit that is free within the tolerances.
 struct JointFit {
   std::vector<Hypothesis> causes;
-  std::vector<double> held;
+  Point held;
   Refined free;
   double cost{std::numeric_limits<double>::infinity()};  ///< [nat]
 };
@@ -57,12 +57,11 @@ class FileFits {
         fine_(cautious_, held_, part_, fast_, landscape.rig().axes),
         free_(landscape.search(), landscape.terms(), part_, fast_, landscape.rig().axes) {}
 
-  [[nodiscard]] std::vector<double> FileNumbers() const { return cautious_.HealthyParameters(); }
+  [[nodiscard]] Point FileNumbers() const { return cautious_.HealthyPoint(); }
 
-  [[nodiscard]] JointFit Free(const std::vector<double>& held,
-                              const std::vector<Hypothesis>& causes) const {
+  [[nodiscard]] JointFit Free(const Point& held, const std::vector<Hypothesis>& causes) const {
     JointFit made{causes, held, free_.Approach(held, kWhiteningOrder, kFreePasses, causes)};
-    if (made.free.ok) made.cost = free_.Misfit(made.free.theta, kWhiteningOrder, causes);
+    if (made.free.ok) made.cost = free_.Misfit(made.free.point, kWhiteningOrder, causes);
     return made;
   }
 
@@ -70,11 +69,11 @@ class FileFits {
   [[nodiscard]] JointFit Anew() const {
     const Refined coarse = coarse_.Approach(FileNumbers(), kWhiteningOrder, kHeldPasses);
     const Refined held =
-        fine_.Approach(coarse.ok ? coarse.theta : FileNumbers(), kWhiteningOrder, kHeldPasses);
-    return Free(held.ok ? held.theta : FileNumbers(), {});
+        fine_.Approach(coarse.ok ? coarse.point : FileNumbers(), kWhiteningOrder, kHeldPasses);
+    return Free(held.ok ? held.point : FileNumbers(), {});
   }
 
-  [[nodiscard]] View LineariseAt(const std::vector<double>& held) const {
+  [[nodiscard]] View LineariseAt(const Point& held) const {
     return cautious_.Linearise(few_, fast_few_, held, kWhiteningOrder, cautious_.Everything());
   }
 
@@ -90,8 +89,8 @@ class FileFits {
     causes.push_back(cause);
     const Refined nearest = Nearest(view, base, causes);
     if (!nearest.ok) return {};
-    const Refined held = fine_.Approach(nearest.theta, kWhiteningOrder, kHeldPasses, causes);
-    return Free(held.ok ? held.theta : nearest.theta, causes);
+    const Refined held = fine_.Approach(nearest.point, kWhiteningOrder, kHeldPasses, causes);
+    return Free(held.ok ? held.point : nearest.point, causes);
   }
 
  private:
@@ -108,7 +107,7 @@ class FileFits {
     for (const double times : {0.0, 4.0, 1.0, 2.0}) {
       Refined fit = coarse_.Approach(Start(base.held, seen, causes.back(), times), kWhiteningOrder,
                                      kHeldPasses, causes);
-      const double misfit = fit.ok ? coarse_.Misfit(fit.theta, kWhiteningOrder, causes)
+      const double misfit = fit.ok ? coarse_.Misfit(fit.point, kWhiteningOrder, causes)
                                    : std::numeric_limits<double>::infinity();
       if (misfit < least) {
         least = misfit;
@@ -120,10 +119,10 @@ class FileFits {
     return nearest;
   }
 
-  static std::vector<double> Start(std::vector<double> theta, const std::vector<double>& seen,
-                                   const Hypothesis& cause, double times) {
-    for (const std::size_t i : cause.terms) theta[i] += times * (seen[i] - theta[i]);
-    return theta;
+  static Point Start(Point at, const std::vector<double>& seen, const Hypothesis& cause,
+                     double times) {
+    for (const std::size_t i : cause.terms) at.theta[i] += times * (seen[i] - at.theta[i]);
+    return at;
   }
 
   const RecordLandscape& landscape_;
@@ -156,19 +155,18 @@ bool AddOne(const FileFits& fits, const RecordLandscape& landscape, const Judgin
 /// hold there.
 bool TakeOver(RecordLandscape& landscape, const SelectionRules& rules, const JointFit& without,
               const JointFit& with, CauseSelection& found) {
-  landscape.LineariseAt(without.free.theta);
-  const Refined base = landscape.Fit({}, without.free.theta, rules.effort.passes);
+  landscape.LineariseAt(without.free.point);
+  const Refined base = landscape.Fit({}, without.free.point, rules.effort.passes);
   if (!base.ok) return false;
-  const double most = landscape.MisfitOf({}, base.theta) - rules.judging.suspected_nat;
-  landscape.LineariseAt(with.free.theta);
-  Refined fit = landscape.Fit(with.causes, with.free.theta, rules.effort.passes);
-  if (!fit.ok || !(landscape.MisfitOf(with.causes, fit.theta) < most)) return false;
+  const double most = landscape.MisfitOf({}, base.point) - rules.judging.suspected_nat;
+  landscape.LineariseAt(with.free.point);
+  Refined fit = landscape.Fit(with.causes, with.free.point, rules.effort.passes);
+  if (!fit.ok || !(landscape.MisfitOf(with.causes, fit.point) < most)) return false;
   found.causes = with.causes;
   for (std::size_t i = 0; i < found.causes.size(); ++i) {
     fit = landscape.RefineShapeOf(with.causes, i, std::move(fit));
-    landscape.TakePlace(found.causes[i]);
   }
-  found.theta = fit.theta;
+  found.point = fit.point;
   found.refitted.clear();  // weighed about the calibration that hid them
   return true;
 }
@@ -178,10 +176,10 @@ bool TakeOver(RecordLandscape& landscape, const SelectionRules& rules, const Joi
 void CalibrateAnew(RecordLandscape& landscape, const SelectionRules& rules, const JointFit& anew,
                    CauseSelection& found) {
   const double before = landscape.MisfitOf({}, found.calibrated);
-  landscape.LineariseAt(anew.free.theta);
-  const Refined fit = landscape.Fit({}, anew.free.theta, rules.effort.passes);
-  if (!fit.ok || !(landscape.MisfitOf({}, fit.theta) < before)) return;
-  found.theta = found.calibrated = fit.theta;
+  landscape.LineariseAt(anew.free.point);
+  const Refined fit = landscape.Fit({}, anew.free.point, rules.effort.passes);
+  if (!fit.ok || !(landscape.MisfitOf({}, fit.point) < before)) return;
+  found.point = found.calibrated = fit.point;
 }
 
 }  // namespace
@@ -190,7 +188,8 @@ bool TakeSwallowedCauses(RecordLandscape& landscape, const SelectionRules& rules
                          CauseSelection& found) {
   const std::vector<Term>& terms = landscape.terms();
   const double tolerances = rules.judging.moved_tolerances;
-  if (!WentFar(terms, landscape.view().problem, found.calibrated, {}, tolerances)) return false;
+  if (!WentFar(terms, landscape.view().problem, found.calibrated.theta, {}, tolerances))
+    return false;
   const FileFits fits(landscape);
   // Compared on the same rows and with the same observer; the better of two ways without a cause.
   JointFit without = fits.Free(found.calibrated, {});
@@ -202,7 +201,7 @@ bool TakeSwallowedCauses(RecordLandscape& landscape, const SelectionRules& rules
   JointFit with = without;
   with.held = fits.FileNumbers();
   while (with.causes.size() < rules.most_causes &&
-         WentFar(terms, with.free.problem, with.free.theta, with.causes, tolerances)) {
+         WentFar(terms, with.free.problem, with.free.point.theta, with.causes, tolerances)) {
     if (!AddOne(fits, landscape, rules.judging, with)) break;
   }
   bool taken = false;
@@ -212,7 +211,7 @@ bool TakeSwallowedCauses(RecordLandscape& landscape, const SelectionRules& rules
     taken = TakeOver(landscape, rules, without, with, found);
     if (!taken) landscape.Observe(slow);
   }
-  landscape.LineariseAt(found.theta);
+  landscape.LineariseAt(found.point);
   return taken;
 }
 

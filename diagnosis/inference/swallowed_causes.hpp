@@ -26,7 +26,7 @@
 
 namespace levitas::diagnosis {
 
-/// True when any was taken; the landscape is linearised at found.theta either way.
+/// True when any was taken; the landscape is linearised at found.point either way.
 bool TakeSwallowedCauses(RecordLandscape& landscape, const SelectionRules& rules,
                          CauseSelection& found);
 

@@ -29,22 +29,22 @@ class Judge {
     Runs runs;
     double penalty{};  ///< of what was adapted, squared
   };
-  /// Of a set that was fitted to theta; `movable`: of its numbers those that may adapt.
-  [[nodiscard]] Forecast Of(const std::vector<Hypothesis>& causes, const std::vector<double>& theta,
+  /// Of a set that was fitted to the point; `movable`: of its numbers those that may adapt.
+  [[nodiscard]] Forecast Of(const std::vector<Hypothesis>& causes, const Point& fit,
                             const std::vector<std::size_t>& movable) const {
     const Whitener& whitener = landscape_.view().whitener;
     const Evidence fitted = landscape_.EvidenceGiven(causes);
     Evidence::Adapted adapted = fitted.Unchanged();
-    std::vector<double> at = theta;
+    Point at = fit;
     Forecast best{RunAt(at), 0.0};
     double least = Squared(best);
     for (int step = 0; step < kSteps; ++step) {
       const View there = landscape_.search().Linearise(best.runs, at, whitener, movable);
       if (SensitivitiesDiverge(there.sum)) break;
       const auto next = fitted.Adapt(there.sum, adapted);
-      std::vector<double> moved = theta;
+      Point moved = fit;
       for (const std::size_t i : movable) {
-        moved[i] += next.change[static_cast<Eigen::Index>(i)] * landscape_.terms()[i].scale();
+        moved.theta[i] += next.change[static_cast<Eigen::Index>(i)] * landscape_.terms()[i].scale();
       }
       Forecast tried{RunAt(moved), next.penalty};
       const double squared = Squared(tried);
@@ -65,9 +65,9 @@ class Judge {
   }
 
  private:
-  [[nodiscard]] Runs RunAt(const std::vector<double>& theta) const {
+  [[nodiscard]] Runs RunAt(const Point& point) const {
     return std::make_shared<const std::vector<Trajectory>>(
-        landscape_.search().Run(validation_, gains_, theta));
+        landscape_.search().Run(validation_, gains_, point));
   }
 
   /// Whitened innovations and what was paid for them.
@@ -88,19 +88,19 @@ class Judge {
 /// The calibrated model without the causes, which stay away.
 Judge::Forecast WithoutCauses(const RecordLandscape& landscape, const CauseSelection& found,
                               const Judge& judge) {
-  std::vector<double> theta = found.calibrated;
+  Point point = found.WithoutCauses();
   std::vector<std::size_t> movable;
-  for (std::size_t i = 0; i < theta.size(); ++i) {
+  for (std::size_t i = 0; i < point.theta.size(); ++i) {
     const bool cause = Moves(found.causes, i);
-    if (cause) theta[i] = landscape.terms()[i].healthy_mean;
+    if (cause) point.theta[i] = landscape.terms()[i].healthy_mean;
     if (!cause && landscape.terms()[i].nuisance()) movable.push_back(i);
   }
-  return judge.Of({}, theta, movable);
+  return judge.Of({}, point, movable);
 }
 
 Judge::Forecast With(const RecordLandscape& landscape, const Judge& judge,
-                     const std::vector<Hypothesis>& causes, const std::vector<double>& theta) {
-  return judge.Of(causes, theta, landscape.search().NuisancesAnd(causes));
+                     const std::vector<Hypothesis>& causes, const Point& point) {
+  return judge.Of(causes, point, landscape.search().NuisancesAnd(causes));
 }
 
 /// The candidate of the chosen contender leads, whatever the fitted records say.
@@ -141,22 +141,22 @@ void JudgeOnValidation(RecordLandscape& landscape, const std::vector<Record>& va
   const Judge judge(landscape, validation);
   const double deviations = judging.gain_deviations;
   const Judge::Forecast base = WithoutCauses(landscape, found, judge);
-  const Judge::Forecast leader = With(landscape, judge, found.causes, found.theta);
+  const Judge::Forecast leader = With(landscape, judge, found.causes, found.point);
   FitGain worth = judge.Gain(base, leader);
   Note(found, found.causes.front().effect, worth);
   std::vector<FitGain> over_leader;
   for (const CauseSet& other : found.contenders) {
-    const Judge::Forecast forecast = With(landscape, judge, other.causes, other.fit.theta);
+    const Judge::Forecast forecast = With(landscape, judge, other.causes, other.fit.point);
     over_leader.push_back(judge.Gain(leader, forecast));
     Note(found, other.causes.front().effect, judge.Gain(base, forecast));
   }
   if (const auto chosen = Choose(over_leader, deviations)) {
     found.causes = found.contenders[*chosen].causes;
-    found.theta = found.contenders[*chosen].fit.theta;
+    found.point = found.contenders[*chosen].fit.point;
     Lead(found, found.causes.front().effect);
-    landscape.LineariseAt(found.theta);
+    landscape.LineariseAt(found.point);
     worth = judge.Gain(WithoutCauses(landscape, found, judge),
-                       With(landscape, judge, found.causes, found.theta));
+                       With(landscape, judge, found.causes, found.point));
   }
   found.doubt = DoubtOf(worth.value, worth.deviation, deviations);
   if (found.doubt != Doubt::kNothing) {

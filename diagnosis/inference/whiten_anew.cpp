@@ -14,12 +14,12 @@ bool WhitenAnew(RecordLandscape& landscape, const SelectionRules& rules, CauseSe
     return false;
   // First without any filter: the next one would hold what the former one left of the cause.
   landscape.ReportProgress(0.6, "whitening anew");
-  landscape.LineariseUnfiltered(found.theta);
-  const Refined plain = landscape.Fit(found.causes, found.theta, rules.effort.passes);
-  if (plain.ok) found.theta = plain.theta;
-  landscape.LineariseAt(found.theta);
-  Refined fit = landscape.Fit(found.causes, found.theta, rules.effort.passes);
-  if (fit.ok) found.theta = std::move(fit.theta);
+  landscape.LineariseUnfiltered(found.point);
+  const Refined plain = landscape.Fit(found.causes, found.point, rules.effort.passes);
+  if (plain.ok) found.point = plain.point;
+  landscape.LineariseAt(found.point);
+  Refined fit = landscape.Fit(found.causes, found.point, rules.effort.passes);
+  if (fit.ok) found.point = std::move(fit.point);
   found.refitted.clear();
   return true;
 }

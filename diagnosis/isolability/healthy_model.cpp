@@ -70,15 +70,15 @@ HealthyModel::HealthyModel(const configuration::RigFile& rig, std::vector<Record
   terms_ = TermsOf(rig_);
   search_ = std::make_unique<const Search>(rig_, terms_, std::nullopt, judging.model_error_share);
   gains_ = search_->DesignGains(records_, kSlow);
-  std::vector<double> theta = search_->HealthyParameters();
+  Point point = search_->HealthyPoint();
   if (calibrate) {
     constexpr int kPasses = 5;
     const Refined fit =
         CalibrateNuisances(rig_, *search_, terms_, records_, records_, gains_, kSlow, kPasses);
     if (!fit.ok) throw BadInput("these records cannot be calibrated: is it the same rig?");
-    theta = fit.theta;
+    point = fit.point;
   }
-  view_ = search_->Linearise(records_, gains_, theta, kWhiteningOrder, search_->Everything());
+  view_ = search_->Linearise(records_, gains_, point, kWhiteningOrder, search_->Everything());
 }
 
 std::vector<Term> HealthyModel::TermsOf(const RigView& rig) const {
@@ -148,11 +148,11 @@ std::vector<Trajectory> HealthyModel::RunWith(const std::vector<EffectConfig>& f
   spoilt.effects.insert(spoilt.effects.end(), fault.begin(), fault.end());
   const RigView with(rig_.numbers, spoilt);
   const std::vector<Term> terms = TermsOf(with);
-  return Search(with, terms).Run(records, gains, view_.theta);
+  return Search(with, terms).Run(records, gains, view_.point);
 }
 
 LinearProblem HealthyModel::Calibrated(const std::vector<Trajectory>& faulty) const {
-  const Eigen::VectorXd healthy = search_->Scaled(view_.theta);
+  const Eigen::VectorXd healthy = search_->Scaled(view_.point.theta);
   // About the healthy rig, of the model at theta against that with the fault.
   const auto problem_at = [&](const std::vector<Trajectory>& runs, const Eigen::VectorXd& away) {
     NormalEquations sum = view_.sum;
@@ -171,7 +171,8 @@ LinearProblem HealthyModel::Calibrated(const std::vector<Trajectory>& faulty) co
           std::max(LeastPossible(terms_[i]), terms_[i].healthy_mean + scaled * terms_[i].scale());
     }
     const Eigen::VectorXd away = search_->Scaled(theta) - healthy;
-    auto [next, left] = problem_at(search_->Run(records_, gains_, theta), away);
+    auto [next, left] =
+        problem_at(search_->Run(records_, gains_, {theta, view_.point.shapes}), away);
     const double now = left + 0.5 * fit.penalty;
     if (!(now < cost)) break;  // also where a run was lost
     best = std::move(next);

@@ -53,7 +53,7 @@ class HealthyModel {
                                                 const std::vector<Record>& records,
                                                 const Gains& gains) const;
 
-  [[nodiscard]] const std::vector<double>& theta() const noexcept { return view_.theta; }
+  [[nodiscard]] const Point& point() const noexcept { return view_.point; }
   [[nodiscard]] const RigView& rig() const noexcept { return rig_; }
   [[nodiscard]] const std::vector<Term>& terms() const noexcept { return terms_; }
   [[nodiscard]] const std::vector<Hypothesis>& hypotheses() const { return search_->hypotheses(); }

@@ -39,7 +39,7 @@ SensorsBeside::SensorsBeside(const HealthyModel& model)
   sensors_[0].noise = std::sqrt(2.0) * rig.ReadingNoise(0);
   sensors_[1].what = "probes of the control current of every axis";
   sensors_[1].noise = kCurrentNoiseA;
-  const auto healthy = search_.Run(part_, gains_, model.theta());
+  const auto healthy = search_.Run(part_, gains_, model.point());
   const auto terms = static_cast<Eigen::Index>(model.own_terms());
   for (std::size_t s = 0; s < size(); ++s) {
     sensors_[s].healthy = Read(s, healthy);
@@ -47,9 +47,9 @@ SensorsBeside::SensorsBeside(const HealthyModel& model)
   }
   EachInParallel(model.own_terms(), 0, [&](std::size_t i) {
     constexpr double kShare = 0.1;  // of its scale
-    std::vector<double> theta = model.theta();
-    theta[i] += kShare * model.terms()[i].scale();
-    const auto runs = search_.RunAlone(part_, gains_, theta);
+    Point point = model.point();
+    point.theta[i] += kShare * model.terms()[i].scale();
+    const auto runs = search_.RunAlone(part_, gains_, point);
     for (std::size_t s = 0; s < size(); ++s) {
       const Eigen::VectorXf change = Read(s, runs) - sensors_[s].healthy;
       // A model that lost the rotor says nothing.

@@ -56,9 +56,8 @@ struct Term;
 /// Parametric family of force laws: one member represents nearby values of the shape parameters.
 struct Family {
   using Shape = std::vector<double>;
-  Shape shape;          ///< each > 0; SI units
-  Shape log_width;      ///< ln of half the distance to the next member, or of half the usual one
-  Shape linearised_as;  ///< shape at which slopes exist; another one needs its own
+  Shape shape;      ///< each > 0; SI units
+  Shape log_width;  ///< ln of half the distance to the next member, or of half the usual one
   std::function<Term(const Shape& shape)> member;
 };
 

@@ -10,16 +10,17 @@
 namespace levitas::diagnosis {
 namespace {
 
-void Add(std::vector<PlacedEffect>& groups, const std::vector<Term>& terms, std::size_t index,
+void Add(std::vector<PlacedEffect>& groups, const DiagnosisResult& s, std::size_t index,
          double theta) {
-  const Term& term = terms[index];
+  const Point& point = s.answer.extended;
+  const Term term = TermAt(s.terms, point, index);
   const auto same = std::find_if(groups.begin(), groups.end(), [&term](const PlacedEffect& g) {
     return g.effect == term.effect && g.location.name == term.location.name;
   });
   PlacedEffect& group = same != groups.end()
                             ? *same
                             : groups.emplace_back(PlacedEffect{
-                                  term.effect, term.location, term.family.shape, {}, {}});
+                                  term.effect, term.location, point.shapes[index], {}, {}});
   group.theta.try_emplace(term.parameter, theta);
   group.term.try_emplace(term.parameter, index);
 }
@@ -48,7 +49,7 @@ std::vector<PlacedEffect> CausesByPlace(const DiagnosisResult& s) {
   std::vector<PlacedEffect> groups;
   for (const Hypothesis& cause : s.answer.causes) {
     for (const std::size_t t : cause.terms) {
-      Add(groups, s.terms, t, s.answer.theta_extended[t]);
+      Add(groups, s, t, s.answer.extended.theta[t]);
     }
   }
   return groups;
@@ -56,7 +57,7 @@ std::vector<PlacedEffect> CausesByPlace(const DiagnosisResult& s) {
 
 std::vector<PlacedEffect> CalibrationByPlace(const DiagnosisResult& s) {
   std::vector<PlacedEffect> groups;
-  for (const Estimate& e : s.answer.calibration) Add(groups, s.terms, e.term, e.value);
+  for (const Estimate& e : s.answer.calibration) Add(groups, s, e.term, e.value);
   return groups;
 }
 

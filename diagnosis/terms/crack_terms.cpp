@@ -82,7 +82,7 @@ Term Crack(const RigView& rig, double z_m, double direction_rad) {
                0.0, 0.05, soften);
   term.positive = true;
   // Half the distance of the planes, and of directions that count from one whole turn on.
-  term.family = {{z_m, direction_rad}, {0.1, 0.04}, {}, [&rig](const Family::Shape& other) {
+  term.family = {{z_m, direction_rad}, {0.1, 0.04}, [&rig](const Family::Shape& other) {
                    return Crack(rig, other[0], other[1]);
                  }};
   return term;

@@ -55,10 +55,9 @@ Term Support(const RigView& rig, std::size_t b, double frequency_hz, double damp
                 "1/mass_kg", "1/kg"},
                0.0, 0.2, nullptr);
   term.positive = true;
-  term.family = {
-      {frequency_hz, damping_ratio}, {0.04, 0.5}, {}, [&rig, b](const Family::Shape& other) {
-        return Support(rig, b, other[0], other[1]);
-      }};
+  term.family = {{frequency_hz, damping_ratio}, {0.04, 0.5}, [&rig, b](const Family::Shape& other) {
+                   return Support(rig, b, other[0], other[1]);
+                 }};
   const double w = 2.0 * std::numbers::pi * frequency_hz;
   term.drive = [b, w, damping_ratio, period_s = rig.period_s, h = Housing{}](
                    const SamplePoint& m, double theta, Contribution& add) mutable {
@@ -121,7 +120,7 @@ Term Rub(const RigView& rig, std::size_t b, double clearance_m, double friction,
     };
   }
   const Family::Shape shape{clearance_m, friction};
-  term.family = {shape, {0.15, 0.4}, {}, [&rig, b, by_rate](const Family::Shape& other) {
+  term.family = {shape, {0.15, 0.4}, [&rig, b, by_rate](const Family::Shape& other) {
                    return Rub(rig, b, other[0], other[1], by_rate);
                  }};
   return term;

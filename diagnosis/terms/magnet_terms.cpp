@@ -61,7 +61,7 @@ Term Saturation(const RigView& rig, double knee_share, double exponent) {
                });
   term.positive = true;
   const Family::Shape shape{knee_share, exponent};
-  term.family = {shape, {0.12, 0.25}, {}, [&rig](const Family::Shape& other) {
+  term.family = {shape, {0.12, 0.25}, [&rig](const Family::Shape& other) {
                    return Saturation(rig, other[0], other[1]);
                  }};
   term.slope = [&rig, knee_share, exponent](const SamplePoint& m, double theta,

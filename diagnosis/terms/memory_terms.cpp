@@ -69,7 +69,7 @@ Term Hysteresis(const RigView& rig, double width_share) {
       {Id::kHysteresis, Everywhere(fmt::format("width {:.4g} i0", width_share)), "share", "1"}, 0.0,
       1.0, nullptr);
   term.positive = true;
-  term.family = {{width_share}, {0.55}, {}, [&rig](const Family::Shape& other) {
+  term.family = {{width_share}, {0.55}, [&rig](const Family::Shape& other) {
                    return Hysteresis(rig, other[0]);
                  }};
   term.drive = [&rig, width_share, stop = std::array<double, kMaxAxes>{},

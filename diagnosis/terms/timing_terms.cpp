@@ -149,9 +149,8 @@ Term Slew(const RigView& rig, double slew_a_per_s) {
       {Id::kAmplifierSlew, Everywhere(fmt::format("{:.0f} A/s", slew_a_per_s)), "share", "1"}, 0.0,
       0.7, nullptr);
   term.positive = true;
-  term.family = {{slew_a_per_s}, {0.4}, {}, [&rig](const Family::Shape& other) {
-                   return Slew(rig, other[0]);
-                 }};
+  term.family = {
+      {slew_a_per_s}, {0.4}, [&rig](const Family::Shape& other) { return Slew(rig, other[0]); }};
   std::vector<SlewingCoil> coils;
   for (std::size_t a = 0; a < rig.axes; ++a) {
     coils.emplace_back(rig.bearing(a).amplifier.bandwidth_hz, slew_a_per_s, rig.period_s);

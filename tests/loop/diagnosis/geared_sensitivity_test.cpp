@@ -65,7 +65,7 @@ class GearedTerms : public ::testing::Test {
     return 0;
   }
   [[nodiscard]] Trajectory Run(const std::vector<double>& theta) const {
-    return search_.Run({spinning_}, gains_, theta).front();
+    return search_.Run({spinning_}, gains_, PointAt(terms_, theta)).front();
   }
   [[nodiscard]] Trajectory Run(std::size_t term, double value) const {
     std::vector<double> theta(terms_.size(), 0.0);
@@ -192,8 +192,8 @@ TEST_F(GearedTerms, NeedTheTurnThatTheShaftsAreIn) {
   for (auto& row : other.rows) row.sample.angle_rad += 2.0 * 3.14159265358979;
   const auto power = [&](const Record& record) {
     double sum = 0.0;
-    const std::vector<double> theta(terms_.size(), 0.0);
-    const std::vector<Trajectory> runs = search_.Run({record}, gains_, theta);
+    const Point nothing = PointAt(terms_, std::vector<double>(terms_.size(), 0.0));
+    const std::vector<Trajectory> runs = search_.Run({record}, gains_, nothing);
     for (const SamplePoint& m : runs.front().moments) {
       if (m.counts) sum += std::pow(static_cast<double>(m.innovation_m[0]), 2);
     }

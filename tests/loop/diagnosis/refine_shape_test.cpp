@@ -36,15 +36,15 @@ TEST(RefineShape, FindsTheShapeBetweenTwoMembers) {
   plan.runup_s = 1.0;
   const accuracy::Trial trial = accuracy::MakeTrial(bench, plan);
   std::vector<Record> records{trial.records[0]};
-  std::vector<Term> terms = AllTerms(rig, Tolerances{}, LargestOrbit(records, rig.axes));
-  Search search(rig, terms);
+  const std::vector<Term> terms = AllTerms(rig, Tolerances{}, LargestOrbit(records, rig.axes));
+  const Search search(rig, terms);
   const Gains gains = search.DesignGains(records, kSlow);
   const Refiner refiner(search, terms, records, gains, rig.axes);
   const Refined calibrated =
       CalibrateNuisances(rig, search, terms, records, records, gains, kSlow, 4);
   ASSERT_TRUE(calibrated.ok);
   const View view =
-      search.Linearise(records, gains, calibrated.theta, kWhiteningOrder, search.Everything());
+      search.Linearise(records, gains, calibrated.point, kWhiteningOrder, search.Everything());
   const auto member =
       std::find_if(search.hypotheses().begin(), search.hypotheses().end(), [](const Hypothesis& h) {
         return h.effect == effect::Id::kAmplifierSlew && h.place == "4000 A/s";
@@ -52,11 +52,12 @@ TEST(RefineShape, FindsTheShapeBetweenTwoMembers) {
   ASSERT_NE(member, search.hypotheses().end());
   ASSERT_TRUE(HasFamily(*member, terms));
   const std::vector<Hypothesis> causes{*member};
-  const Refined blunt = refiner.Fit(causes, search.Solve(view.problem, causes), view, 5);
+  const Refined blunt =
+      refiner.Fit(causes, {search.Solve(view.problem, causes), view.point.shapes}, view, 5);
   ASSERT_TRUE(blunt.ok);
   const Refined sharp = RefineShape(refiner, *member, causes, view, 5, blunt, terms);
   EXPECT_GT(sharp.evidence, blunt.evidence + kDecisive);
-  const double found = terms[member->terms.front()].family.shape[0];
+  const double found = sharp.point.shapes[member->terms.front()][0];
   EXPECT_NEAR(found, TrueSlew(trial), 0.05 * TrueSlew(trial));
 }
 

@@ -42,7 +42,7 @@ class Sensitivity : public ::testing::Test {
   }
 
   [[nodiscard]] Trajectory Run(const std::vector<double>& theta) const {
-    return search_.Run({spinning_}, gains_, theta).front();
+    return search_.Run({spinning_}, gains_, PointAt(terms_, theta)).front();
   }
 
   /// |propagated - difference| / |difference| over all axes and the samples that count.

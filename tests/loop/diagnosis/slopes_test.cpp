@@ -49,8 +49,9 @@ class SlopesTest : public ::testing::Test {
 TEST_F(SlopesTest, SumUpToWhatThePropagatedDerivativesGive) {
   Prepare({});
   const std::size_t at = Find("sensor_gain");
-  const std::vector<double> theta = search_.HealthyParameters();
-  const View view = search_.Linearise(records_, gains_, theta, 2, {at});
+  const Point healthy = search_.HealthyPoint();
+  const std::vector<double>& theta = healthy.theta;
+  const View view = search_.Linearise(records_, gains_, healthy, 2, {at});
   double jtj = 0.0;
   double jte = 0.0;
   double ete = 0.0;
@@ -85,7 +86,7 @@ TEST_F(SlopesTest, SumUpToWhatThePropagatedDerivativesGive) {
 TEST_F(SlopesTest, RenewedWithTheSameRunStayWhatTheyWere) {
   Prepare({});
   const View view =
-      search_.Linearise(records_, gains_, search_.HealthyParameters(), 4, search_.Everything());
+      search_.Linearise(records_, gains_, search_.HealthyPoint(), 4, search_.Everything());
   NormalEquations sum = view.sum;
   view.slopes->Renew(*view.runs, view.whitener, sum);
   EXPECT_NEAR(sum.ete, view.sum.ete, 1e-9 * sum.ete);
@@ -102,11 +103,11 @@ TEST_F(SlopesTest, AFitFromFarComesToWhereOneFromNearComes) {
   Prepare({});
   const Refiner refiner(search_, terms_, records_, gains_, view_.axes);
   const View view =
-      search_.Linearise(records_, gains_, search_.HealthyParameters(), 4, search_.Everything());
-  std::vector<double> far = search_.HealthyParameters();
-  far[Find("current_gain")] = 0.3;
+      search_.Linearise(records_, gains_, search_.HealthyPoint(), 4, search_.Everything());
+  Point far = search_.HealthyPoint();
+  far.theta[Find("current_gain")] = 0.3;
   const Refined from_far = refiner.Fit({}, far, view, 4);
-  const Refined from_near = refiner.Fit({}, search_.HealthyParameters(), view, 4);
+  const Refined from_near = refiner.Fit({}, search_.HealthyPoint(), view, 4);
   ASSERT_TRUE(from_far.ok);
   ASSERT_TRUE(from_near.ok);
   // A descent stops where a pass gains less than 0.3 nat, or promises less than 1.
@@ -119,8 +120,8 @@ TEST_F(SlopesTest, AFitIsWorthWhatTheModelDoesAndNoMore) {
   Prepare({});
   const Refiner refiner(search_, terms_, records_, gains_, view_.axes);
   const View view =
-      search_.Linearise(records_, gains_, search_.HealthyParameters(), 4, search_.Everything());
-  const Refined fit = refiner.Fit({}, search_.HealthyParameters(), view, 4);
+      search_.Linearise(records_, gains_, search_.HealthyPoint(), 4, search_.Everything());
+  const Refined fit = refiner.Fit({}, search_.HealthyPoint(), view, 4);
   ASSERT_TRUE(fit.ok);
   const auto line = Evidence(fit.problem, terms_, {}).Solve();
   const double promised = 0.5 * (line.squared_sum + line.penalty);
@@ -136,8 +137,8 @@ TEST_F(SlopesTest, OfACalibrationAreRenewedUntilALargeUnbalanceIsFollowedToTheNo
   const Refined fit =
       CalibrateNuisances(view_, search_, terms_, records_, records_, slow, kSlow, 8);
   ASSERT_TRUE(fit.ok);
-  const auto runs = search_.Run(records_, slow, fit.theta);
-  const auto nominal = search_.Run(records_, slow, search_.HealthyParameters());
+  const auto runs = search_.Run(records_, slow, fit.point);
+  const auto nominal = search_.Run(records_, slow, search_.HealthyPoint());
   const auto rms = [](const Trajectory& run, std::size_t axis) {
     double sum = 0.0;
     double count = 0.0;

@@ -47,7 +47,7 @@ class TermModel : public ::testing::Test {
                                const Record& record, const std::vector<double>& theta) const {
     const Search search(view, terms);
     const std::vector<Record> records{record};
-    return search.Run(records, search.DesignGains(records, kSlow), theta).front();
+    return search.Run(records, search.DesignGains(records, kSlow), PointAt(terms, theta)).front();
   }
 
   accuracy::TestRig bench_ = accuracy::LoadTestRig("flexible_rotor", {"flexible_rotor"});
@@ -118,15 +118,17 @@ class ModeOfAStiffRotor : public TermModel {
     const RigView other(stiff.rig.numbers, plant);
     const std::vector<Term> others = AllTerms(other, Tolerances{}, 50e-6);
     std::vector<double> theta(terms.size(), 0.0);
-    const Trajectory file = Search(other, others).Run(records, gains, theta).front();
-    const Trajectory none = search.Run(records, gains, theta).front();
+    const Trajectory file =
+        Search(other, others).Run(records, gains, PointAt(others, theta)).front();
+    const Trajectory none = search.Run(records, gains, PointAt(terms, theta)).front();
     const std::string place = AtMode(entry.mode).name;
     const auto term = std::find_if(terms.begin(), terms.end(), [&](const Term& t) {
       return t.effect == id && t.location.name == place;
     });
     EXPECT_NE(term, terms.end()) << place;
     theta[static_cast<std::size_t>(term - terms.begin())] = theta_of_it;
-    return Apart(search.Run(records, gains, theta).front(), file) / Apart(none, file);
+    return Apart(search.Run(records, gains, PointAt(terms, theta)).front(), file) /
+           Apart(none, file);
   }
 };
 

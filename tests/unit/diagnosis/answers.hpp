@@ -15,8 +15,8 @@ inline DiagnosisResult NothingFound() {
   DiagnosisResult s;
   s.view = std::make_shared<const RigView>(FlexibleRotor().numbers, FlexibleRotor().plant);
   s.terms = AllTerms(*s.view, Tolerances{}, 50e-6);
-  s.answer.theta_calibrated.assign(s.terms.size(), 0.0);
-  s.answer.theta_extended = s.answer.theta_calibrated;
+  s.answer.calibrated = PointAt(s.terms, std::vector<double>(s.terms.size(), 0.0));
+  s.answer.extended = s.answer.calibrated;
   s.answer.residual.channels.resize(s.view->axes);
   s.fastest_rad_per_s = 300.0;
   s.excited = true;
@@ -32,7 +32,7 @@ inline DiagnosisResult Found(effect::Id effect, const std::string& place, double
     s.answer.causes = {h};
     for (const std::size_t t : h.terms) {
       const double scale = s.terms[t].scale();
-      s.answer.theta_extended[t] = share * scale;
+      s.answer.extended.theta[t] = share * scale;
       s.answer.parameters.push_back({t, share * scale, 0.05 * scale});
     }
     s.answer.candidates.push_back({.effect = effect, .place = place, .score = 20.0});

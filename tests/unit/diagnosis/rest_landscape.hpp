@@ -48,21 +48,21 @@ class RestLandscape {
  public:
   /// Calibrated to what was put there, the hum left out, and linearised there.
   explicit RestLandscape(double hum_m, double offset_m = 0.0)
-      : records_{RestRecord(hum_m, offset_m)}, at_(landscape.search().HealthyParameters()) {
-    at_[TermOf(effect::Id::kSensorOffset, "de_x")] = offset_m;
+      : records_{RestRecord(hum_m, offset_m)}, at_(landscape.search().HealthyPoint()) {
+    at_.theta[TermOf(effect::Id::kSensorOffset, "de_x")] = offset_m;
     landscape.LineariseAt(at_);
   }
 
   /// Linearised there again, whatever a test did with it.
   RestLandscape& Again() {
-    if (landscape.view().theta != at_) landscape.LineariseAt(at_);
+    if (landscape.view().point != at_) landscape.LineariseAt(at_);
     return *this;
   }
 
   /// No cause.
   [[nodiscard]] CauseSelection Calibrated() const {
     CauseSelection found;
-    found.theta = found.calibrated = landscape.view().theta;
+    found.point = found.calibrated = landscape.view().point;
     found.calibrated_runs = landscape.view().runs;
     return found;
   }
@@ -87,7 +87,7 @@ class RestLandscape {
 
  private:
   std::vector<Record> records_;
-  std::vector<Term> terms_ = TermsAtRest();
+  const std::vector<Term> terms_ = TermsAtRest();
   Settings settings_;
 
  public:
@@ -95,7 +95,7 @@ class RestLandscape {
                             Effort{5, 3, 3, 2, kMostRows, false}, terms_};
 
  private:
-  std::vector<double> at_;
+  Point at_;
 };
 
 // One of each for all tests of a program: a linearisation takes a second.

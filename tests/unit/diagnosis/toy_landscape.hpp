@@ -72,16 +72,16 @@ class ToyLandscape final : public EvidenceLandscape {
     h.place = place;
     h.terms = {all_.size()};
     along_.push_back(Vector(along).normalized());
-    shapes_.push_back({1.0});
+    at_.shapes.push_back({1.0});
     all_.push_back(h);
     return h;
   }
 
   [[nodiscard]] CauseSelection Found(const Causes& causes) const {
     CauseSelection found;
-    found.calibrated = std::vector<double>(all_.size(), 0.0);
+    found.calibrated = {std::vector<double>(all_.size(), 0.0), at_.shapes};
     found.causes = causes;
-    found.theta = SolutionOf(causes);
+    found.point = SolutionOf(causes);
     return found;
   }
 
@@ -91,11 +91,14 @@ class ToyLandscape final : public EvidenceLandscape {
   std::vector<ModeProbe> probes;
   std::map<double, double> from;      ///< [nat] where a fit begins with a theta of this value
   mutable std::vector<Effects> fits;  ///< in the order of time
-  mutable std::vector<std::vector<double>> starts;  ///< of these fits
-  std::vector<AllShapes> linearised;                ///< the shapes at the time
+  mutable std::vector<std::vector<double>> starts;     ///< of these fits
+  std::vector<std::vector<Family::Shape>> linearised;  ///< the shapes at the time
 
   [[nodiscard]] const Causes& hypotheses() const override { return all_; }
-  void LineariseAt(const std::vector<double>&) override { linearised.push_back(shapes_); }
+  void LineariseAt(const Point& point) override {
+    at_ = point;
+    linearised.push_back(point.shapes);
+  }
   [[nodiscard]] double GainOf(const Hypothesis& cause, const Causes& given) const override {
     Causes with = given;
     with.push_back(cause);
@@ -122,32 +125,31 @@ class ToyLandscape final : public EvidenceLandscape {
     const Eigen::VectorXd left = Vector(readings_) - Directions(set) * Amounts(set);
     return -0.5 * left.squaredNorm() - kOccam * static_cast<double>(set.size());
   }
-  [[nodiscard]] std::vector<double> SolutionOf(const Causes& set) const override {
+  [[nodiscard]] Point SolutionOf(const Causes& set) const override {
     std::vector<double> theta(all_.size(), 0.0);
     const Eigen::VectorXd amounts = Amounts(set);
     for (std::size_t i = 0; i < set.size(); ++i) {
       theta[set[i].terms.front()] += amounts[static_cast<Eigen::Index>(i)];
     }
-    return theta;
+    return {theta, at_.shapes};
   }
-  [[nodiscard]] std::vector<double> SolutionAt(const Refined&, const Causes& set) const override {
-    return SolutionOf(set);
+  [[nodiscard]] Point SolutionAt(const Refined& fit, const Causes& set) const override {
+    return {SolutionOf(set).theta, fit.point.shapes};
   }
-  [[nodiscard]] Refined Fit(const Causes& set, const std::vector<double>& start, int,
-                            double) const override {
+  [[nodiscard]] Refined Fit(const Causes& set, const Point& start, int, double) const override {
     const Effects effects = EffectsOf(set);
     fits.push_back(effects);
-    starts.push_back(start);
+    starts.push_back(start.theta);
     Refined fit;
     fit.ok = !refused.contains(effects);
-    fit.theta = SolutionOf(set);
+    fit.point = {SolutionOf(set).theta, start.shapes};
     const auto known = fitted.find(effects);
     fit.evidence = known == fitted.end() ? EvidenceOf(set) : known->second;
-    for (const double value : start) {
+    for (const double value : start.theta) {
       if (from.contains(value)) fit.evidence = from.at(value);
     }
     for (const Hypothesis& h : set) {
-      if (HasShape(h) && shapes_[h.terms.front()] == kBest) fit.evidence += shape.at(h.effect);
+      if (HasShape(h) && start.shapes[h.terms.front()] == kBest) fit.evidence += shape.at(h.effect);
     }
     return fit;
   }
@@ -155,8 +157,8 @@ class ToyLandscape final : public EvidenceLandscape {
     return Fit(set, SolutionOf(set), 1, worth);
   }
   [[nodiscard]] Refined RefineShapeOf(const Causes& set, std::size_t at, Refined fit,
-                                      double) override {
-    Family::Shape& present = shapes_[set[at].terms.front()];
+                                      double) const override {
+    Family::Shape& present = fit.point.shapes[set[at].terms.front()];
     if (!HasShape(set[at]) || present == kBest) return fit;
     present = kBest;
     fit.evidence += shape.at(set[at].effect);
@@ -165,10 +167,9 @@ class ToyLandscape final : public EvidenceLandscape {
   [[nodiscard]] bool HasShape(const Hypothesis& cause) const override {
     return shape.contains(cause.effect);
   }
-  [[nodiscard]] AllShapes Shapes() const override { return shapes_; }
-  void Restore(const AllShapes& shapes) override { shapes_ = shapes; }
-  void TakePlace(Hypothesis& member) override {
-    if (HasShape(member)) member.place = "at its shape";
+  [[nodiscard]] std::string PlaceAt(const Point& point, const Hypothesis& cause) const override {
+    const bool moved = HasShape(cause) && point.shapes[cause.terms.front()] == kBest;
+    return moved ? "at its shape" : cause.place;
   }
   [[nodiscard]] std::vector<ModeProbe> Probes() const override { return probes; }
   void ReportProgress(double, const std::string&) const override {}
@@ -201,7 +202,7 @@ class ToyLandscape final : public EvidenceLandscape {
   std::vector<double> readings_;
   std::vector<Eigen::VectorXd> along_;
   Causes all_;
-  AllShapes shapes_;
+  Point at_;  ///< where it is linearised
 };
 
 /// What a thorough search goes by.

@@ -43,8 +43,8 @@ TEST(AddUnconfirmedCause, FindsItsShapeWhereAFitFollowsAndTheSearchIsThorough) {
     rules.effort.first_cause_only = first_only;
     CauseSelection found = toy.Found({});
     ASSERT_TRUE(AddCause(toy, rules, 0.2, found));
-    EXPECT_EQ(found.causes.front().place, place) << follows << first_only;
-    EXPECT_NEAR(found.theta.front(), 10.0, 1e-9);
+    EXPECT_EQ(toy.PlaceAt(found.point, found.causes.front()), place) << follows << first_only;
+    EXPECT_NEAR(found.point.theta.front(), 10.0, 1e-9);
   }
 }
 
@@ -106,8 +106,8 @@ TEST(AddCauseToTwo, DropsTheSuperfluousOneAndKeepsTheOther) {
   CauseSelection found = toy.Found({imitation, other});
   ASSERT_TRUE(AddThoroughly(toy, found));
   EXPECT_EQ(ToyLandscape::EffectsOf(found.causes), (Effects{other.effect, true_cause.effect}));
-  EXPECT_NEAR(found.theta[imitation.terms.front()], 0.0, 1e-9);
-  EXPECT_NEAR(found.theta[other.terms.front()], 9.0, 1e-9);
+  EXPECT_NEAR(found.point.theta[imitation.terms.front()], 0.0, 1e-9);
+  EXPECT_NEAR(found.point.theta[other.terms.front()], 9.0, 1e-9);
 }
 
 // -1 nat for the second: 2^2 / 2 - 3.
@@ -119,8 +119,8 @@ TEST(DropUnprovenOfThree, DropsTheOneInTheMiddleAlone) {
   CauseSelection found = toy.Found({x, y, z});
   DropUnproven(toy, ThoroughRules(), found);
   EXPECT_EQ(ToyLandscape::EffectsOf(found.causes), (Effects{x.effect, z.effect}));
-  EXPECT_NEAR(found.theta[x.terms.front()], 10.0, 1e-9);
-  EXPECT_NEAR(found.theta[y.terms.front()], 0.0, 1e-9);
+  EXPECT_NEAR(found.point.theta[x.terms.front()], 10.0, 1e-9);
+  EXPECT_NEAR(found.point.theta[y.terms.front()], 0.0, 1e-9);
 }
 
 // Of two that are the same each is worth nothing beside the other: one of them must stay.
@@ -133,7 +133,8 @@ TEST(DropUnprovenOfThree, LeavesOneOfTwoThatStandForEachOther) {
   DropUnproven(toy, ThoroughRules(), found);
   ASSERT_EQ(found.causes.size(), 2U);
   EXPECT_TRUE(ToyLandscape::EffectsOf(found.causes).contains(y.effect));
-  EXPECT_NEAR(found.theta[x.terms.front()] + found.theta[twin.terms.front()], 10.0, 1e-9);
+  EXPECT_NEAR(found.point.theta[x.terms.front()] + found.point.theta[twin.terms.front()], 10.0,
+              1e-9);
 }
 
 }  // namespace

@@ -140,7 +140,7 @@ TEST(RefitAlternatives, ReplaceTheFirstOfTwoAndKeepTheOther) {
   ASSERT_EQ(found.causes.size(), 2U);
   EXPECT_EQ(found.causes[0].effect, alternative.effect);
   EXPECT_EQ(found.causes[1].effect, other.effect);
-  EXPECT_NEAR(found.theta[other.terms.front()], 8.0, 1e-9);
+  EXPECT_NEAR(found.point.theta[other.terms.front()], 8.0, 1e-9);
   EXPECT_NEAR(RankedAs(found, alternative).score, 47.0 + 4.0, 1e-9);
   ASSERT_EQ(found.contenders.size(), 1U);
   EXPECT_EQ(ToyLandscape::EffectsOf(found.contenders.front().causes),
@@ -171,7 +171,7 @@ TEST(DropFailedLeader, OfThreeGoesWhereTheOtherTwoLoseLessThanWhatDecides) {
     toy.fitted[{y.effect, z.effect}] = -9.0 - cost;
     EXPECT_EQ(DropFailedLeader(toy, ThoroughRules(), found), left == 2U);
     EXPECT_EQ(found.causes.size(), left) << cost;
-    EXPECT_NEAR(found.theta[leader.terms.front()], left == 2U ? 0.0 : 10.0, 1e-9);
+    EXPECT_NEAR(found.point.theta[leader.terms.front()], left == 2U ? 0.0 : 10.0, 1e-9);
   }
 }
 

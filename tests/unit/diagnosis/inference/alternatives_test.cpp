@@ -151,10 +151,10 @@ TEST(DropFailedLeader, LeavesTheCalibratedModelWhereTheOnlyCauseFails) {
   const Hypothesis only = toy.Add(role::kOnly, {1.0});
   CauseSelection found = toy.Found({only});
   found.leader_evidence = toy.EvidenceOf({only});
-  found.calibrated = {0.25};
+  found.calibrated.theta = {0.25};
   EXPECT_TRUE(DropFailedLeader(toy, ThoroughRules(), found));
   EXPECT_TRUE(found.causes.empty());
-  EXPECT_EQ(toy.starts.back(), found.calibrated);
+  EXPECT_EQ(toy.starts.back(), found.calibrated.theta);
 }
 
 TEST(DropFailedLeader, WithoutCausesHasNone) {

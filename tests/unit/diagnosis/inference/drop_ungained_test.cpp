@@ -16,7 +16,7 @@ using effect::Id;
 CauseSelection HumOf(const RestLandscape& rest, double cosine_m) {
   CauseSelection found = rest.Calibrated();
   found.causes = {rest.Of(Id::kMainsPickup, kHumPlace)};
-  found.theta[found.causes.front().terms.front()] = cosine_m;
+  found.point.theta[found.causes.front().terms.front()] = cosine_m;
   return found;
 }
 
@@ -26,7 +26,7 @@ TEST(DropUngained, KeepsAHumOfItsSizeAndDropsOneOfTheWrongSign) {
     CauseSelection found = HumOf(rest, cosine_m);
     DropUngained(rest.landscape, Judging{}, found);
     EXPECT_EQ(found.causes.size(), left) << cosine_m;
-    EXPECT_EQ(found.theta == found.calibrated, left == 0U);
+    EXPECT_EQ(found.point == found.calibrated, left == 0U);
   }
 }
 
@@ -35,9 +35,9 @@ TEST(DropUngained, LeavesTheLandscapeAtTheCalibratedModel) {
   RestLandscape& rest = Humming();
   CauseSelection found = HumOf(rest, -kHum);
   const Runs before = found.calibrated_runs;
-  rest.landscape.LineariseAt(found.theta);
+  rest.landscape.LineariseAt(found.point);
   DropUngained(rest.landscape, Judging{}, found);
-  EXPECT_EQ(rest.landscape.view().theta, found.calibrated);
+  EXPECT_EQ(rest.landscape.view().point, found.calibrated);
   EXPECT_EQ(found.calibrated_runs, rest.landscape.view().runs);
   EXPECT_NE(found.calibrated_runs, before);
 }
@@ -51,7 +51,7 @@ TEST(DropUngained, KeepsACauseThatTakesNumbersBackFromTheCalibration) {
     found.causes = {rest.Of(Id::kUnbalance, "z 129.9 mm")};
     const std::size_t term = found.causes.front().terms.front();
     const double tolerance = rest.landscape.terms()[term].tolerance;
-    found.theta[term] = found.calibrated[term] = tolerances * tolerance;
+    found.point.theta[term] = found.calibrated.theta[term] = tolerances * tolerance;
     DropUngained(rest.landscape, Judging{}, found);
     EXPECT_EQ(found.causes.size(), left) << tolerances;
   }
@@ -60,10 +60,10 @@ TEST(DropUngained, KeepsACauseThatTakesNumbersBackFromTheCalibration) {
 TEST(DropUngained, WithoutCausesChangesNothing) {
   RestLandscape& rest = Humming();
   CauseSelection found = rest.Calibrated();
-  found.calibrated[0] = 0.01;
-  const std::vector<double> theta = found.theta;
+  found.calibrated.theta[0] = 0.01;
+  const Point before = found.point;
   DropUngained(rest.landscape, Judging{}, found);
-  EXPECT_EQ(found.theta, theta);
+  EXPECT_EQ(found.point, before);
 }
 
 }  // namespace

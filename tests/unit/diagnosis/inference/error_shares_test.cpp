@@ -52,7 +52,7 @@ Hypothesis CauseOf(std::size_t term, const std::vector<Term>& terms) {
 std::vector<ErrorShare> Shares(const std::vector<Term>& terms, const std::vector<double>& theta,
                                std::vector<Hypothesis> causes) {
   SearchResult answer;
-  answer.theta_extended = theta;
+  answer.extended = PointAt(terms, theta);
   answer.causes = std::move(causes);
   const std::vector<double> noise(TheRig().axes, kNoise);
   return ErrorShares(Search(TheRig(), terms), terms, answer, Noise(), noise);

@@ -39,8 +39,8 @@ TEST(ExchangeOfThree, ReplacesTheThirdAlone) {
   EXPECT_EQ(found.causes[0].effect, three.x.effect);
   EXPECT_EQ(found.causes[1].effect, three.y.effect);
   EXPECT_EQ(found.causes[2].effect, three.z.effect);
-  EXPECT_NEAR(found.theta[three.z.terms.front()], 8.0, 1e-9);
-  EXPECT_NEAR(found.theta[three.not_z.terms.front()], 0.0, 1e-9);
+  EXPECT_NEAR(found.point.theta[three.z.terms.front()], 8.0, 1e-9);
+  EXPECT_NEAR(found.point.theta[three.not_z.terms.front()], 0.0, 1e-9);
 }
 
 // One in a round: linearised before and after each exchange, for the next one is judged anew.
@@ -49,7 +49,7 @@ TEST(ExchangeOfThree, ReplacesTwoInTwoRounds) {
   const CauseSelection found = three.Exchanged({three.x, three.not_y, three.not_z});
   EXPECT_EQ(ToyLandscape::EffectsOf(found.causes),
             (Effects{three.x.effect, three.y.effect, three.z.effect}));
-  EXPECT_NEAR(found.theta[three.y.terms.front()], 9.0, 1e-9);
+  EXPECT_NEAR(found.point.theta[three.y.terms.front()], 9.0, 1e-9);
   EXPECT_EQ(three.toy.linearised.size(), 4U);
 }
 
@@ -74,9 +74,9 @@ TEST(ExchangeOfThree, RefinesTheShapesOfAllOfThemTogether) {
   ThreeToExchange three;
   three.toy.shape = {{three.x.effect, 2.0}, {three.z.effect, 3.0}};
   const CauseSelection found = three.Exchanged({three.x, three.y, three.z});
-  EXPECT_EQ(found.causes[0].place, "at its shape");
-  EXPECT_EQ(found.causes[1].place, "here");
-  EXPECT_EQ(found.causes[2].place, "at its shape");
+  EXPECT_EQ(three.toy.PlaceAt(found.point, found.causes[0]), "at its shape");
+  EXPECT_EQ(three.toy.PlaceAt(found.point, found.causes[1]), "here");
+  EXPECT_EQ(three.toy.PlaceAt(found.point, found.causes[2]), "at its shape");
 }
 
 // The twin explains as much as the second cause beside the first; two of one effect are one.

@@ -26,18 +26,18 @@ TEST(ExchangeCauses, TakesTheAlternativeThatExplainsMore) {
   ExchangeCauses(b.toy, ThoroughRules(), found);
   EXPECT_EQ(ToyLandscape::EffectsOf(found.causes),
             (ToyLandscape::Effects{role::kFirst, role::kTrueSecond}));
-  EXPECT_NEAR(found.theta[b.true_second.terms.front()], 9.0, 1e-9);
+  EXPECT_NEAR(found.point.theta[b.true_second.terms.front()], 9.0, 1e-9);
 }
 
 TEST(ExchangeCauses, KeepsWhatIsBestAndTheShapesThatItHad) {
   Biased b;
   CauseSelection found = b.toy.Found({b.first, b.true_second});
   b.toy.shape[role::kSecond] = 1.0;  // of an alternative that loses all the same
-  const auto before = b.toy.Shapes();
+  const auto before = found.point.shapes;
   ExchangeCauses(b.toy, ThoroughRules(), found);
   EXPECT_EQ(ToyLandscape::EffectsOf(found.causes),
             (ToyLandscape::Effects{role::kFirst, role::kTrueSecond}));
-  EXPECT_EQ(b.toy.Shapes(), before);
+  EXPECT_EQ(found.point.shapes, before);
   EXPECT_EQ(std::count(b.toy.fits.begin(), b.toy.fits.end(),
                        ToyLandscape::Effects{role::kFirst, role::kSecond}),
             1)
@@ -51,8 +51,8 @@ TEST(ExchangeCauses, JudgesAnAlternativeByItsBestShape) {
   ExchangeCauses(b.toy, ThoroughRules(), found);
   EXPECT_EQ(ToyLandscape::EffectsOf(found.causes),
             (ToyLandscape::Effects{role::kFirst, role::kSecond}));
-  EXPECT_EQ(found.causes[1].place, "at its shape");
-  EXPECT_EQ(b.toy.Shapes()[b.second.terms.front()], ToyLandscape::kBest);
+  EXPECT_EQ(b.toy.PlaceAt(found.point, found.causes[1]), "at its shape");
+  EXPECT_EQ(found.point.shapes[b.second.terms.front()], ToyLandscape::kBest);
 }
 
 // Two alternatives, each with a shape of its own: the second one loses and is taken back alone.
@@ -66,7 +66,7 @@ TEST(ExchangeCauses, KeepsTheShapeOfTheWinnerWhenTheNextOneLoses) {
             (ToyLandscape::Effects{role::kFirst, role::kSecond}));
   ASSERT_GE(b.toy.linearised.size(), 2U);
   EXPECT_EQ(b.toy.linearised[1][b.second.terms.front()], ToyLandscape::kBest) << "exchanged";
-  EXPECT_NE(b.toy.Shapes()[third.terms.front()], ToyLandscape::kBest);
+  EXPECT_NE(found.point.shapes[third.terms.front()], ToyLandscape::kBest);
 }
 
 TEST(ExchangeCauses, LeavesASingleCause) {

@@ -61,14 +61,14 @@ TEST(JudgeOnValidation, LeadsWithTheContenderThatForetellsTheDataBetter) {
   OffsetFound of;
   CauseSet hum;
   hum.causes = {of.rest.Of(Id::kMainsPickup, kHumPlace)};
-  hum.fit.theta = of.found.calibrated;
-  hum.fit.theta[of.rest.TermOf(Id::kSensorOffset, "de_x")] = 0.0;
+  hum.fit.point = of.found.calibrated;
+  hum.fit.point.theta[of.rest.TermOf(Id::kSensorOffset, "de_x")] = 0.0;
   of.found.contenders = {hum};
   of.Judge({RestRecord(0.0, 0.0)});
   ASSERT_EQ(of.found.causes.size(), 1U);
   EXPECT_EQ(of.found.causes.front().place, kHumPlace);
   EXPECT_EQ(of.found.candidates.front().place, kHumPlace);
-  EXPECT_EQ(of.found.theta, hum.fit.theta);
+  EXPECT_EQ(of.found.point, hum.fit.point);
 }
 
 // At rest an unbalance moves nothing: worth nothing, and no reason to doubt it.

@@ -45,8 +45,8 @@ TEST(MergeTwoCauses, TakesTheEffectThatTheNonlinearModelPrefers) {
   two.toy.fitted[{two.both.effect}] = -20.0;
   const CauseSelection found = two.Merged();
   EXPECT_EQ(ToyLandscape::EffectsOf(found.causes), Effects{skew.effect});
-  EXPECT_NEAR(found.theta[skew.terms.front()], 16.0 / std::sqrt(1.36), 1e-9);
-  EXPECT_NEAR(found.theta[two.both.terms.front()], 0.0, 1e-9);
+  EXPECT_NEAR(found.point.theta[skew.terms.front()], 16.0 / std::sqrt(1.36), 1e-9);
+  EXPECT_NEAR(found.point.theta[two.both.terms.front()], 0.0, 1e-9);
 }
 
 TEST(MergeTwoCauses, PassesOverAnEffectThatCannotBeFitted) {
@@ -104,7 +104,7 @@ struct ThreeToMerge {
   [[nodiscard]] Effects Merged(const SelectionRules& rules = ThoroughRules()) {
     CauseSelection found = toy.Found({x, y, z});
     MergeCauses(toy, rules, found);
-    theta = found.theta;
+    theta = found.point.theta;
     return ToyLandscape::EffectsOf(found.causes);
   }
   std::vector<double> theta;

@@ -37,7 +37,7 @@ TEST(NameMovedCalibration, NamesAnOffsetOfFourTolerancesAndWhatItIsWorth) {
   NameMovedCalibration(rest.landscape, NamingRules(), found);
   ASSERT_EQ(found.causes.size(), 1U);
   EXPECT_EQ(found.causes.front().place, "de_x");
-  EXPECT_NEAR(found.theta[term], 4.0 * kOffsetTolerance, 0.1 * kOffsetTolerance);
+  EXPECT_NEAR(found.point.theta[term], 4.0 * kOffsetTolerance, 0.1 * kOffsetTolerance);
   ASSERT_EQ(found.candidates.size(), 2U) << "in the place of its own effect's";
   EXPECT_EQ(found.candidates.front().place, "de_x");
   EXPECT_EQ(found.candidates.front().hypothesis, rest.IndexOf(Id::kSensorOffset, "de_x"));

@@ -33,7 +33,7 @@ TEST(AddCause, TakesTheEffectThatExplainsMostAndItsFit) {
   CauseSelection found = toy.Found({});
   ASSERT_TRUE(AddTo(toy, found));
   EXPECT_EQ(InOrder(found.causes), Effects{role::kGreater});
-  EXPECT_NEAR(found.theta[greater.terms.front()], 10.0, 1e-9);
+  EXPECT_NEAR(found.point.theta[greater.terms.front()], 10.0, 1e-9);
   ASSERT_FALSE(found.refitted.empty());
   EXPECT_TRUE(found.refitted.front().refitted);
 }
@@ -100,8 +100,8 @@ TEST(AddCause, DropsAnEarlierOneThatItMakesSuperfluous) {
   CauseSelection found = toy.Found({imitation});
   ASSERT_TRUE(AddTo(toy, found));
   EXPECT_EQ(InOrder(found.causes), Effects{role::kTrueCause});
-  EXPECT_NEAR(found.theta[1], 10.0, 1e-9);
-  EXPECT_NEAR(found.theta[0], 0.0, 1e-9);
+  EXPECT_NEAR(found.point.theta[1], 10.0, 1e-9);
+  EXPECT_NEAR(found.point.theta[0], 0.0, 1e-9);
 }
 
 TEST(AddCause, LooksWhereTheScreenSeesNothing) {
@@ -126,7 +126,7 @@ TEST(AddCause, FindsTheShapeOfAFamilyUnlessAFirstAnswerIsAsked) {
     rules.effort.first_cause_only = first_only;
     CauseSelection found = toy.Found({});
     ASSERT_TRUE(AddCause(toy, rules, 0.2, found));
-    EXPECT_EQ(found.causes.front().place, first_only ? "here" : "at its shape");
+    EXPECT_EQ(toy.PlaceAt(found.point, found.causes.front()), first_only ? "here" : "at its shape");
   }
 }
 
@@ -144,7 +144,7 @@ TEST(MergeCauses, PutsOneEffectInThePlaceOfTwoThatImitateIt) {
   CauseSelection found = toy.Found({x, y});
   MergeCauses(toy, ThoroughRules(), found);
   EXPECT_EQ(InOrder(found.causes), Effects{role::kBoth});
-  EXPECT_NEAR(found.theta[2], 10.0 * std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(found.point.theta[2], 10.0 * std::sqrt(2.0), 1e-9);
   EXPECT_EQ(toy.linearised.size(), 1U) << "at the new causes";
 }
 
@@ -229,7 +229,7 @@ TEST(DropUnproven, DropsTheWeakestFirstAndAsksTheOthersAgain) {
   CauseSelection found = toy.Found({imitation, x});
   DropUnproven(toy, ThoroughRules(), found);
   EXPECT_EQ(InOrder(found.causes), Effects{role::kX});
-  EXPECT_NEAR(found.theta[1], 10.0, 1e-9);
+  EXPECT_NEAR(found.point.theta[1], 10.0, 1e-9);
 }
 
 TEST(DropUnproven, KeepsDecisiveOnes) {
@@ -246,10 +246,10 @@ TEST(DropUnproven, EndsAtTheCalibratedModel) {
   const Hypothesis x = toy.Add(role::kX, {1.0, 0.0});
   const Hypothesis y = toy.Add(role::kY, {0.0, 1.0});
   CauseSelection found = toy.Found({x, y});
-  found.calibrated = {0.25, -0.5};
+  found.calibrated.theta = {0.25, -0.5};
   DropUnproven(toy, ThoroughRules(), found);
   EXPECT_TRUE(found.causes.empty());
-  EXPECT_EQ(found.theta, found.calibrated);
+  EXPECT_EQ(found.point, found.calibrated);
 }
 
 }  // namespace

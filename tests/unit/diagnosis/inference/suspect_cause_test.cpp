@@ -25,7 +25,7 @@ TEST(SuspectCause, TakesALeaderThatItsFitConfirms) {
   EXPECT_TRUE(found.candidates.front().refitted);
   double square = 0.0;
   for (const std::size_t term : found.causes.front().terms)
-    square += std::pow(found.theta[term], 2);
+    square += std::pow(found.point.theta[term], 2);
   // Known to 1 um sqrt(2 / 3000): five of those.
   EXPECT_NEAR(std::sqrt(square), kHum,
               5.0 * kHumNoise * std::sqrt(2.0 / static_cast<double>(kRestCount)));
@@ -38,7 +38,7 @@ TEST(SuspectCause, LeavesALeaderThatItsFitRefutes) {
   SuspectCause(rest.landscape, Judging{}, found);
   EXPECT_TRUE(found.causes.empty());
   EXPECT_EQ(found.doubt, Doubt::kNothing);
-  EXPECT_EQ(found.theta, found.calibrated);
+  EXPECT_EQ(found.point, found.calibrated);
   EXPECT_LT(found.candidates.front().score, 0.0);
 }
 
@@ -78,8 +78,8 @@ TEST(SuspectCause, AddsNothingToACause) {
 CauseSelection SuspectedAt(double tolerances) {
   const RestLandscape& rest = NothingWrong();
   CauseSelection found = rest.Calibrated();
-  found.calibrated.assign(found.calibrated.size(), 0.0);
-  found.calibrated[rest.TermOf(Id::kSensorOffset, "de_x")] = tolerances * kOffsetTolerance;
+  found.calibrated.theta.assign(found.calibrated.theta.size(), 0.0);
+  found.calibrated.theta[rest.TermOf(Id::kSensorOffset, "de_x")] = tolerances * kOffsetTolerance;
   found.candidates = {rest.CandidateOf(Id::kMainsPickup, kHumPlace, -1.0),
                       rest.CandidateOf(Id::kSensorOffset, "de_y", -2.0)};
   SuspectCause(rest.landscape, Judging{}, found);

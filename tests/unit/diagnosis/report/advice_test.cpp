@@ -91,7 +91,7 @@ TEST(Headline, NamesOfEveryAxisByItselfThoseOfWhichItIsTrue) {
   const auto say = [&s](const std::vector<double>& gains) {
     for (std::size_t i = 0; i < gains.size(); ++i) {
       s.answer.parameters[i].value = gains[i];
-      s.answer.theta_extended[s.answer.parameters[i].term] = gains[i];
+      s.answer.extended.theta[s.answer.parameters[i].term] = gains[i];
     }
     return BuildReport(s).headline;
   };

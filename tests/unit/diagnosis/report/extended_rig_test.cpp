@@ -117,7 +117,7 @@ TEST(ExtendedRigTest, ChangesNothingButTheEffects) {
 TEST(ExtendedRigTest, HoldsThePhaseUnderTheKeyAndWithTheDigitsThatAreTold) {
   DiagnosisResult answer = Found(effect::Id::kUnbalance, "z 299.2 mm");
   for (const std::size_t t : answer.answer.causes.front().terms) {
-    answer.answer.theta_extended[t] = answer.terms[t].parameter == "sine" ? 7.3e-6 : -25.1e-6;
+    answer.answer.extended.theta[t] = answer.terms[t].parameter == "sine" ? 7.3e-6 : -25.1e-6;
   }
   // 180 deg less atan(7.3/25.1)
   EXPECT_THAT(ExtendedRig(answer, FlexibleRotor()),

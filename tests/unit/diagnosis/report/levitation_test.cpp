@@ -37,7 +37,7 @@ DiagnosisReport CalibratedStiffness(double more, const KnownLaws& laws) {
   DiagnosisResult s = NothingFound();
   for (std::size_t t = 0; t < s.terms.size(); ++t) {
     if (s.terms[t].effect_name() != "displacement_stiffness") continue;
-    s.answer.theta_calibrated[t] = s.answer.theta_extended[t] = more;
+    s.answer.calibrated.theta[t] = s.answer.extended.theta[t] = more;
     s.answer.calibration.push_back({t, more, 0.01});
   }
   s.known_laws = laws;
