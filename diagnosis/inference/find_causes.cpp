@@ -1,6 +1,7 @@
 #include "diagnosis/inference/find_causes.hpp"
 
 #include <memory>
+#include <utility>
 
 #include "diagnosis/inference/coloured.hpp"
 #include "diagnosis/inference/loud_fault.hpp"
@@ -48,10 +49,20 @@ void SlowDown(RecordLandscape& landscape, const SelectionRules& rules, std::size
   }
 }
 
+/// Whether there were swallowed causes, or a calibration in place of one that had lost its way.
+bool TakeSwallowed(RecordLandscape& landscape, const SelectionRules& rules, CauseSelection& found) {
+  const Point before = found.calibrated;
+  const bool taken = TakeSwallowedCauses(landscape, rules, found);
+  if (!taken && found.calibrated == before) return false;
+  found.calibrated_runs = CalibratedRuns(landscape, found);
+  return true;
+}
+
 }  // namespace
 
 void FindCauses(RecordLandscape& landscape, const SelectionRules& rules, CauseSelection& found) {
-  std::size_t slowest = 0;  // of the observers that can be gone back to
+  std::size_t slowest = 0;                     // of the observers that can be gone back to
+  bool asked = rules.effort.first_cause_only;  // for causes that calibration swallowed
   for (std::size_t stage = 0;; ++stage) {
     const double share = 0.2 + 0.2 * static_cast<double>(stage);
     if (stage > 0) SlowDown(landscape, rules, slowest, found);
@@ -66,13 +77,14 @@ void FindCauses(RecordLandscape& landscape, const SelectionRules& rules, CauseSe
       landscape.Observe(slowest);
       landscape.LineariseAt(found.point);
     }
-    const bool swallowed = stage == 0 && !rules.effort.first_cause_only &&
-                           TakeSwallowedCauses(landscape, rules, found);
     if (found.causes.empty()) found.calibrated_runs = landscape.view().runs;
-    if (swallowed) found.calibrated_runs = CalibratedRuns(landscape, found);
+    // A first cause that brings calibrated numbers back is all there is to find.
+    const bool first = !found.causes.empty() && !std::exchange(asked, true) &&
+                       TakeSwallowed(landscape, rules, found);
     bool added =
         (found.causes.size() < rules.most_causes && AddCause(landscape, rules, share, found)) ||
-        swallowed;
+        first;
+    if (!added && !std::exchange(asked, true)) added = TakeSwallowed(landscape, rules, found);
     if (stage == 0) added = TakeLoudFault(landscape, rules, found) || added;
     if (!added) return;
     if (rules.effort.first_cause_only) {

@@ -207,24 +207,28 @@ Refined Refiner::Fit(const std::vector<Hypothesis>& causes, Point start, const V
   return best;
 }
 
-Refiner::Along Refiner::StepAlong(const std::vector<Hypothesis>& causes, const Point& at,
-                                  const View& view, double width,
-                                  const std::function<Point(double)>& beside) const {
+View Refiner::LinearisedAt(const std::vector<Hypothesis>& causes, const Point& at,
+                           const View& view) const {
+  View about = search_.Linearise(RunAt(at, view), at, view.whitener, search_.NuisancesAnd(causes));
+  about.runs = nullptr;
+  about.close = true;
+  return about;
+}
+
+Search::ShapeStep Refiner::StepAlong(const std::vector<Hypothesis>& causes, const Point& at,
+                                     const View& about, double width,
+                                     const std::function<Point(double)>& beside) const {
   constexpr double kApart = 0.05;  // of the width
   constexpr double kMost = 1.5;
-  View here = search_.Linearise(RunAt(at, view), at, view.whitener, search_.NuisancesAnd(causes));
-  here.runs = nullptr;
   const auto sum = [&](double by) {
-    NormalEquations shifted = here.sum;
-    here.slopes->Renew(search_.Run(records_, gains_, beside(by)), view.whitener, shifted);
+    NormalEquations shifted = about.sum;
+    about.slopes->Renew(search_.Run(records_, gains_, beside(by)), about.whitener, shifted);
     return shifted;
   };
   const NormalEquations below = sum(-kApart * width);
   const NormalEquations above = sum(kApart * width);
-  here.close = true;
-  return {
-      search_.StepAlong(causes, at.theta, here.sum, below, above, kApart * width, kMost * width),
-      here};
+  return search_.StepAlong(causes, at.theta, about.sum, below, above, kApart * width,
+                           kMost * width);
 }
 
 double Refiner::Misfit(const Point& point, std::size_t whitening_order,

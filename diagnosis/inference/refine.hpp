@@ -49,15 +49,15 @@ class Refiner {
   /// the evidence `worth`. A close Jacobian is never renewed.
   [[nodiscard]] Refined Fit(const std::vector<Hypothesis>& causes, Point start, const View& view,
                             int passes, double worth = kAnyEvidence) const;
-  struct Along {
-    Search::ShapeStep step;
-    View here;  ///< nuisances and causes, without runs
-  };
+  /// Nuisances and causes linearised at a point, without its runs; `view` gives the whitening.
+  [[nodiscard]] View LinearisedAt(const std::vector<Hypothesis>& causes, const Point& at,
+                                  const View& view) const;
   /// Newton's step of all parameters and of a shape parameter without analytic slope. `beside` is
-  /// the point with another value of that one, relative to that of `at` in its logarithm.
-  [[nodiscard]] Along StepAlong(const std::vector<Hypothesis>& causes, const Point& at,
-                                const View& view, double width,
-                                const std::function<Point(double)>& beside) const;
+  /// the point with another value of that one, relative to that of `at` in its logarithm; `about`
+  /// is what LinearisedAt gives of it.
+  [[nodiscard]] Search::ShapeStep StepAlong(const std::vector<Hypothesis>& causes, const Point& at,
+                                            const View& about, double width,
+                                            const std::function<Point(double)>& beside) const;
   /// Nuisances and causes, from far away. The whitening filter is re-estimated at every pass, since
   /// a residual that is not calibrated yet is not noise and must not be weighted down as such.
   [[nodiscard]] Refined Approach(Point start, std::size_t whitening_order, int passes,

@@ -27,21 +27,23 @@ class Members {
   [[nodiscard]] const Family& family() const { return terms_[cause_.terms.front()].family; }
 
   /// A better value of one parameter than that of the start, if there is one.
-  [[nodiscard]] Refined Improve(std::size_t parameter, double width, Refined start) const {
+  [[nodiscard]] Refined Improve(std::size_t parameter, double width, Refined start) {
     const double here = std::log(start.point.shapes[cause_.terms.front()][parameter]);
-    const auto [step, view] =
-        refiner_.StepAlong(causes_, start.point, view_, width,
-                           [&](double by) { return Moved(start.point, parameter, here + by); });
+    // A parameter that did not help leaves the point to the next one.
+    if (!about_.slopes || about_.point != start.point) {
+      about_ = refiner_.LinearisedAt(causes_, start.point, view_);
+    }
+    const auto step = refiner_.StepAlong(causes_, start.point, about_, width, [&](double by) {
+      return Moved(start.point, parameter, here + by);
+    });
     for (double share = 1.0; share > kLeast; share *= 0.3) {
       Point at = Moved(start.point, parameter, here + share * step.step);
       for (std::size_t i = 0; i < at.theta.size(); ++i) {
         at.theta[i] += share * (step.theta[i] - at.theta[i]);
       }
-      Refined fit = refiner_.Fit(causes_, std::move(at), view, passes_, start.evidence);
+      Refined fit = refiner_.Fit(causes_, std::move(at), about_, passes_, start.evidence);
       if (fit.ok && fit.evidence > start.evidence) return fit;
     }
-    // Rounded by its logarithm, as those that were tried.
-    start.point = Moved(std::move(start.point), parameter, here);
     return start;
   }
 
@@ -60,6 +62,7 @@ class Members {
   const View& view_;
   int passes_;
   const std::vector<Term>& terms_;
+  View about_;
 };
 
 }  // namespace
@@ -72,7 +75,7 @@ bool HasFamily(const Hypothesis& cause, const std::vector<Term>& terms) {
 Refined RefineShape(const Refiner& refiner, const Hypothesis& cause,
                     const std::vector<Hypothesis>& causes, const View& view, int passes,
                     Refined start, const std::vector<Term>& terms, double worth) {
-  const Members members(refiner, cause, causes, view, passes, terms);
+  Members members(refiner, cause, causes, view, passes, terms);
   Refined best = std::move(start);
   const Family::Shape width = members.family().log_width;
   // A parameter whose trials failed fails again until another one has moved the fit.

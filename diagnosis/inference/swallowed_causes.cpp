@@ -151,14 +151,20 @@ bool AddOne(const FileFits& fits, const RecordLandscape& landscape, const Judgin
   return true;
 }
 
-/// The causes with all rows, under the observer of the landscape; false where their gain does not
-/// hold there.
+/// The causes with all rows, under the observer of the landscape; false where their gain over no
+/// cause, and over those found so far, does not hold there.
 bool TakeOver(RecordLandscape& landscape, const SelectionRules& rules, const JointFit& without,
               const JointFit& with, CauseSelection& found) {
   landscape.LineariseAt(without.free.point);
   const Refined base = landscape.Fit({}, without.free.point, rules.effort.passes);
   if (!base.ok) return false;
-  const double most = landscape.MisfitOf({}, base.point) - rules.judging.suspected_nat;
+  double most = landscape.MisfitOf({}, base.point);
+  if (!found.causes.empty()) {
+    landscape.LineariseAt(found.point);
+    const Refined now = landscape.Fit(found.causes, found.point, rules.effort.passes);
+    if (now.ok) most = std::min(most, landscape.MisfitOf(found.causes, now.point));
+  }
+  most -= rules.judging.suspected_nat;
   landscape.LineariseAt(with.free.point);
   Refined fit = landscape.Fit(with.causes, with.free.point, rules.effort.passes);
   if (!fit.ok || !(landscape.MisfitOf(with.causes, fit.point) < most)) return false;
@@ -172,13 +178,14 @@ bool TakeOver(RecordLandscape& landscape, const SelectionRules& rules, const Joi
 }
 
 /// A calibration that had lost its way, and not to a cause: the one from the file takes its place,
-/// where it fits better under the observer of the landscape, too.
+/// where it fits better under the observer of the landscape, too, than what was found so far.
 void CalibrateAnew(RecordLandscape& landscape, const SelectionRules& rules, const JointFit& anew,
                    CauseSelection& found) {
-  const double before = landscape.MisfitOf({}, found.calibrated);
+  const double before = landscape.MisfitOf(found.causes, found.point);
   landscape.LineariseAt(anew.free.point);
   const Refined fit = landscape.Fit({}, anew.free.point, rules.effort.passes);
   if (!fit.ok || !(landscape.MisfitOf({}, fit.point) < before)) return;
+  found.causes.clear();
   found.point = found.calibrated = fit.point;
 }
 
@@ -188,10 +195,11 @@ bool TakeSwallowedCauses(RecordLandscape& landscape, const SelectionRules& rules
                          CauseSelection& found) {
   const std::vector<Term>& terms = landscape.terms();
   const double tolerances = rules.judging.moved_tolerances;
-  if (!WentFar(terms, landscape.view().problem, found.calibrated.theta, {}, tolerances))
+  if (!WentFar(terms, landscape.view().problem, found.point.theta, found.causes, tolerances))
     return false;
   const FileFits fits(landscape);
-  // Compared on the same rows and with the same observer; the better of two ways without a cause.
+  // Compared on the same rows and with the same observer; the better of two ways without a cause,
+  // and what was found so far.
   JointFit without = fits.Free(found.calibrated, {});
   if (JointFit anew = fits.Anew(); anew.cost < without.cost) {
     without = std::move(anew);
@@ -199,6 +207,9 @@ bool TakeSwallowedCauses(RecordLandscape& landscape, const SelectionRules& rules
   }
   if (!without.free.ok) return false;
   JointFit with = without;
+  if (!found.causes.empty()) {
+    with.cost = std::min(with.cost, fits.Free(found.point, found.causes).cost);
+  }
   with.held = fits.FileNumbers();
   while (with.causes.size() < rules.most_causes &&
          WentFar(terms, with.free.problem, with.free.point.theta, with.causes, tolerances)) {

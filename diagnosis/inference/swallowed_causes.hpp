@@ -5,7 +5,8 @@
 //           shapes alone, takes them six tolerances from the file, and no straight line leads back
 //           from there: the spring is screened as worth much, and fitted beside it.
 // When      calibration has left a number, a shape of a mode included, surely beyond
-//           moved_tolerances (moved_calibration.hpp).
+//           moved_tolerances (moved_calibration.hpp), and the first cause found about it, if there
+//           is one, does not bring it back.
 // Method    under a fast observer the cost is smooth, and no filter takes what a slow one leaves of
 //           a lightly damped mode for coloured noise. On a few rows every effect is screened about
 //           the file's numbers; each of the first few is fitted together with the nuisances from
@@ -15,7 +16,7 @@
 // Without   the nuisances alone go the same way: a calibration that had lost its way, and not to a
 //           cause, is replaced.
 // Taken     where innovations and all that calibration pays for its moves cost less with it than
-//           without, by suspected_nat: a model is never exact. The search then goes on with it, and
+//           without, and with what was found so far, by suspected_nat: a model is never exact. The search then goes on with it, and
 //           drops it again where further causes explain its share, still under the fast observer:
 //           find_causes.cpp goes back to slower ones.
 // Cost      for each cause a screen, and up to three joint fits of up to six descents; on a part of
@@ -26,7 +27,8 @@
 
 namespace levitas::diagnosis {
 
-/// True when any was taken; the landscape is linearised at found.point either way.
+/// True when any was taken. A calibration that is replaced takes the causes found about it along.
+/// The landscape is linearised at found.point before and after.
 bool TakeSwallowedCauses(RecordLandscape& landscape, const SelectionRules& rules,
                          CauseSelection& found);
 
