@@ -16,9 +16,9 @@
 // Without   the nuisances alone go the same way: a calibration that had lost its way, and not to a
 //           cause, is replaced.
 // Taken     where innovations and all that calibration pays for its moves cost less with it than
-//           without, and with what was found so far, by suspected_nat: a model is never exact. The search then goes on with it, and
-//           drops it again where further causes explain its share, still under the fast observer:
-//           find_causes.cpp goes back to slower ones.
+//           without, and than with what was found so far, by suspected_nat: a model is never exact.
+//           The search then goes on with it, and drops it again where further causes explain its
+//           share, still under the fast observer: find_causes.cpp goes back to slower ones.
 // Cost      for each cause a screen, and up to three joint fits of up to six descents; on a part of
 //           the records, and once on all of them.
 // Thread    blocks the caller, two threads inside.

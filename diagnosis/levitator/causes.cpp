@@ -26,7 +26,6 @@ void AddCoilCauses(std::vector<Cause>& causes) {
   AddCause("both coils", {kDeadBand}, causes);
   AddCause("upper coil", {kCommandUpper}, causes);
   AddCause("lower coil", {kCommandLower}, causes);
-  AddCause("both coils", {kCommandUpper, kCommandLower}, causes);
   AddCause("both coils", {kDriveCurve}, causes);
   AddCause("both coils", {kHeating}, causes);
   AddCause("both coils", {kMotionEmf}, causes);

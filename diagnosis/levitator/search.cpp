@@ -12,7 +12,6 @@ namespace {
 constexpr int kSteps = 8;
 constexpr int kScreenSteps = 4;
 constexpr std::size_t kRefitted = 5;
-constexpr double kSame = 0.1;  ///< [nat] what two fits of the same minimum may differ by
 
 CauseSet Without(const CauseSet& set, std::size_t cause) {
   CauseSet rest;
@@ -30,12 +29,6 @@ CauseSet With(CauseSet set, std::size_t cause) {
 bool SameEffect(const CauseSet& set, std::size_t cause) {
   return std::any_of(set.begin(), set.end(),
                      [&](std::size_t c) { return Causes()[c].effect == Causes()[cause].effect; });
-}
-
-/// A variant of the same effect that moves fewer values.
-bool IsPlainer(std::size_t cause, std::size_t than) {
-  return Causes()[cause].effect == Causes()[than].effect &&
-         Causes()[cause].moves.size() < Causes()[than].moves.size();
 }
 
 /// The best few by their screened gain, of effects that are not in the set.
@@ -73,9 +66,7 @@ class ForwardSelection {
     for (const std::size_t c : Nearest(gain, set_, kRefitted)) {
       const CauseSet with = With(set_, c);
       Fitted fitted = fitter_.Fit(with, now_.theta, filters_, kScreenSteps);
-      // What no record shows adds nothing: of two such variants the one that moves less.
-      const bool plainer = !chosen.empty() && IsPlainer(c, chosen.back());
-      if (fitted.evidence <= (plainer ? best - kSame : best)) continue;
+      if (fitted.evidence <= best) continue;
       best = fitted.evidence;
       found = std::move(fitted);
       chosen = with;

@@ -55,7 +55,7 @@ constexpr std::array kKnobs{Knob{"extra_delay", 0.8, &Truth::delay_samples, fals
                             Knob{"viscous_damping", 0.3, &Truth::damping_n_s_per_m, false},
                             Knob{"dry_friction", 0.02, &Truth::friction_n, false},
                             Knob{"coupling_stiffness", 15.0, &Truth::spring_n_per_m, false},
-                            Knob{"command_offset", 0.04, &Truth::command_a}};
+                            Knob{"command_offset", 0.04, &Truth::command_a, false}};
 
 /// A healthy rig is off by this much everywhere.
 void Mismatch(Random& random, Truth& truth) {
