@@ -199,7 +199,9 @@ Fitted Fitter::Fit(const CauseSet& causes, const Theta& start, const Filters& fi
   out.theta = found.at.point;
   const double cost = found.at.cost;
   if (!std::isfinite(cost))
-    throw BadInput("the rig file itself says nothing finite of the records");
+    throw BadInput(
+        "driven with these records, the rig file's own coils and ball give no finite "
+        "current or motion: are the units and columns those of the rig file?");
   // At the minimum the Jacobian of the last step is as good as a new one.
   const numerics::NormalEquations normal =
       WithPriors(problem.sums(), freedom, Scaled(freedom, out.theta));

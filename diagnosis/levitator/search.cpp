@@ -130,28 +130,25 @@ double ValidationEvidence(const Misfit* validation, const Filters& filters, cons
   return GainOn(*validation, filters, with, without).value;
 }
 
-/// Drops causes that validation data refute, the one that loses most first; not the last one where
-/// the data are the user's: that they refute it is worth saying.
+/// Drops the weakest cause as long as validation data refute it; not the last one where the data
+/// are the user's: that they refute it is worth saying. A strong one that loses there with a weaker
+/// one beside it stays, which would stand in its place otherwise.
 void DropRefuted(const Misfit& validation, std::size_t kept, ForwardSelection& selection) {
   while (selection.set().size() > kept) {
-    double least = 0.0;
     CauseSet rest;
-    Fitted fitted;
-    bool refuted = false;
+    Fitted without;
+    without.evidence = -std::numeric_limits<double>::infinity();
     for (const std::size_t c : selection.set()) {
       const CauseSet others = Without(selection.set(), c);
-      Fitted without =
+      Fitted fitted =
           selection.fitter().Fit(others, selection.now().theta, selection.filters(), kSteps);
-      const double gain =
-          GainOn(validation, selection.filters(), selection.now().theta, without.theta).value;
-      if (gain >= least) continue;
-      refuted = true;
-      least = gain;
+      if (!(fitted.evidence > without.evidence)) continue;
+      without = std::move(fitted);
       rest = others;
-      fitted = std::move(without);
     }
-    if (!refuted) return;
-    selection.Become(rest, std::move(fitted));
+    const Theta& with = selection.now().theta;
+    if (GainOn(validation, selection.filters(), with, without.theta).value >= 0.0) return;
+    selection.Become(rest, std::move(without));
   }
 }
 

@@ -7,9 +7,9 @@
 //            re-estimated after every acceptance.
 // Score      nat that a cause adds to all others; of one that was not named, what it would add in
 //            place of the named one it does most for.
-// Validation the same gain in likelihood on records that were not fitted, where there are any. A
-//            further cause that loses there is dropped: what a wrong first cause leaves is taken
-//            up by such a chain.
+// Validation the same gain in likelihood on records that were not fitted, where there are any. The
+//            weakest cause is dropped as long as it loses there: what a wrong first cause leaves is
+//            taken up by a chain of such.
 // Thread     blocks the caller, two threads inside.
 
 #include <functional>
