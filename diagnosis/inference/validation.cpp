@@ -159,8 +159,11 @@ void JudgeOnValidation(RecordLandscape& landscape, const std::vector<Record>& va
                        With(landscape, judge, found.causes, found.point));
   }
   found.doubt = DoubtOf(worth.value, worth.deviation, deviations);
-  if (found.doubt != Doubt::kNothing) {
+  if (found.doubt == Doubt::kValidationHarm) {
     found.probability = ChanceOfGain(worth.value, worth.deviation);
+  } else if (found.doubt == Doubt::kUnconfirmed) {
+    const double fitted_nat = found.candidates.empty() ? 0.0 : found.candidates.front().score;
+    found.probability = ChanceOfOpen(fitted_nat, 0.5 * worth.value, found.candidates.size());
   }
 }
 

@@ -23,4 +23,8 @@ double ChanceOfGain(double gain, double deviation) noexcept {
   return 0.5 * std::erfc(-gain / (std::sqrt(2.0) * std::max(kRounding, deviation)));
 }
 
+double ChanceOfOpen(double fitted_nat, double gain_nat, std::size_t effects) noexcept {
+  return 1.0 / (1.0 + static_cast<double>(effects) * std::exp(-(fitted_nat + gain_nat)));
+}
+
 }  // namespace levitas::diagnosis

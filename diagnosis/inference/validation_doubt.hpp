@@ -11,6 +11,8 @@
 //            causes (an unbalance at rest), and are no reason to doubt them.
 // Thread     any; pure.
 
+#include <cstddef>
+
 #include "diagnosis/inference/verdict.hpp"
 
 namespace levitas::diagnosis {
@@ -20,7 +22,11 @@ namespace levitas::diagnosis {
 [[nodiscard]] Doubt DoubtOf(double gain, double deviation, double deviations) noexcept;
 
 /// That causes are worth something there: of a normal distribution about the gain; 0 where the gain
-/// is no number.
+/// is no number. Of causes that the data refute.
 [[nodiscard]] double ChanceOfGain(double gain, double deviation) noexcept;
+
+/// Of causes that the data leave open: the fitted records' evidence stands, the gain is added to
+/// it [nat each]. Prior of a healthy rig: 1/effects for each, as in suspicion.hpp.
+[[nodiscard]] double ChanceOfOpen(double fitted_nat, double gain_nat, std::size_t effects) noexcept;
 
 }  // namespace levitas::diagnosis

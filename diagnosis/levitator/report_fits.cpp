@@ -77,7 +77,9 @@ void DoubtUnconfirmed(const Found& found, diagnosis::DiagnosisReport& report) {
                                     diagnosis::Judging{}.gain_deviations);
   if (report.doubt == diagnosis::Doubt::kNothing) return;
   report.verdict = diagnosis::Verdict::kSuspected;
-  report.probability = diagnosis::ChanceOfGain(gain.value, gain.deviation);
+  report.probability = report.doubt == diagnosis::Doubt::kValidationHarm
+                           ? diagnosis::ChanceOfGain(gain.value, gain.deviation)
+                           : diagnosis::ChanceOfOpen(found.evidence, gain.value, Causes().size());
 }
 
 }  // namespace

@@ -174,7 +174,7 @@ std::string SuspicionSentence(const DiagnosisReport& report) {
     case Doubt::kUnconfirmed:
       return fmt::format(
           "Its {:.0f} nat on the fitted data are decisive, but the validation data do not confirm "
-          "it: what the model foretells of them changes by less than chance.",
+          "it: what it gains there is within chance.",
           OwnEvidence(report));
     case Doubt::kValidationHarm:
       return fmt::format(

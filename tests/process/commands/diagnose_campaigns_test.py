@@ -75,10 +75,14 @@ class ForeignCampaigns(unittest.TestCase):
                          answer["candidates"][:3])
         self.assertLess(max(c["moved_tolerances"] for c in answer["calibrated"]), 3.0)
 
-    def test_a_clear_cause_is_not_doubted_for_a_run_up_that_cannot_show_it(self):
+    def test_a_clear_cause_is_suspected_where_a_run_up_does_not_confirm_it(self):
+        """What the run-up shows of it is within the scatter of what both models leave there; the
+        evidence of the fitted records stands."""
         answer = diagnose("eddy_current", ("standing", "spinning"), "runup")
-        self.assertEqual(answer["verdict"], "effect", answer["candidates"][:3])
+        self.assertEqual(answer["verdict"], "suspected", answer["candidates"][:3])
         self.assertEqual(answer["all_causes"], ["eddy_current"])
+        self.assertIn("do not confirm", answer["suspected_because"])
+        self.assertGreater(answer["confidence"], 0.95)
         self.assert_forecast(answer["forecast"])
 
     def assert_forecast(self, forecast):

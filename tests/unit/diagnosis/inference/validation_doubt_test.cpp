@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace levitas::diagnosis {
@@ -37,6 +38,13 @@ TEST(ChanceOfGain, IsThatOfANormalDistribution) {
   EXPECT_NEAR(ChanceOfGain(1.6448536, 1.0), 0.95, 1e-6);
   EXPECT_NEAR(ChanceOfGain(-1.6448536, 1.0), 0.05, 1e-6);
   EXPECT_EQ(ChanceOfGain(std::numeric_limits<double>::quiet_NaN(), 1.0), 0.0);
+}
+
+// 20 nat of the fitted records against forty effects of a healthy rig: exp(20) / 40 : 1.
+TEST(ChanceOfOpen, AddsWhatTheDataSayToWhatTheFittedRecordsSaid) {
+  EXPECT_NEAR(ChanceOfOpen(20.0, 0.0, 40), 1.0 - 40.0 * std::exp(-20.0), 1e-9);
+  EXPECT_NEAR(ChanceOfOpen(std::log(40.0) + 2.0, -2.0, 40), 0.5, 1e-12);
+  EXPECT_LT(ChanceOfOpen(6.0, -5.0, 40), 0.1);
 }
 
 }  // namespace
