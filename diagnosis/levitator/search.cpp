@@ -77,6 +77,7 @@ class ForwardSelection {
     const double gained = found.evidence - now_.evidence;
     if (!(gained > std::max(diagnosis::kDecisive, settings_.form_share * explained_))) return false;
     explained_ += gained;
+    (set_.empty() ? first_ : further_) = set_.empty() ? gained : std::max(further_, gained);
     now_ = std::move(found);
     set_ = chosen;
     Tell(chosen.back());
@@ -99,6 +100,22 @@ class ForwardSelection {
     }
   }
 
+  /// Until no further cause is decisive.
+  void Run() {
+    while (set_.size() < settings_.most_causes && Forward()) Backward();
+  }
+  /// The same with a given first cause, of a selection that has none.
+  void RunFrom(std::size_t cause) {
+    Fitted fitted = fitter_.Fit({cause}, now_.theta, filters_, kSteps);
+    first_ = explained_ = fitted.evidence - now_.evidence;
+    Become({cause}, std::move(fitted));
+    if (first_ > diagnosis::kDecisive) Run();
+  }
+  /// A chain of small causes behind the first one is the mark of a wrong first one.
+  [[nodiscard]] bool HasSmallOnesBehind() const {
+    constexpr double kSmall = 0.1;
+    return set_.size() > 1 && further_ < kSmall * first_;
+  }
   void Become(const CauseSet& set, Fitted now) {
     set_ = set;
     now_ = std::move(now);
@@ -122,12 +139,29 @@ class ForwardSelection {
   Fitted now_;
   Filters filters_;
   double explained_{};
+  double first_{};    ///< [nat] gained by the first cause
+  double further_{};  ///< by the strongest of the others
 };
 
 double ValidationEvidence(const Misfit* validation, const Filters& filters, const Theta& with,
                           const Theta& without) {
   if (validation == nullptr) return std::numeric_limits<double>::quiet_NaN();
   return GainOn(*validation, filters, with, without).value;
+}
+
+/// Forward from other first causes where small ones follow; the best chain stays.
+void ReconsiderFirst(const ForwardSelection& calibrated, ForwardSelection& selection) {
+  if (!selection.HasSmallOnesBehind()) return;
+  constexpr std::size_t kOthers = 3;
+  const std::vector<double> gain =
+      calibrated.fitter().Screen({}, calibrated.now(), calibrated.filters());
+  for (const std::size_t c : Nearest(gain, {selection.set().front()}, kOthers)) {
+    ForwardSelection other = calibrated;
+    other.RunFrom(c);
+    if (other.now().evidence > selection.now().evidence) {
+      selection.Become(other.set(), other.now());
+    }
+  }
 }
 
 /// Drops the weakest cause as long as validation data refute it; not the last one where the data
@@ -262,7 +296,9 @@ Found Search(const Misfit& data, const Misfit* validation, const SearchSettings&
   selection.Calibrate();
   Found found;
   found.calibrated = selection.now();
-  while (selection.set().size() < settings.most_causes && selection.Forward()) selection.Backward();
+  const ForwardSelection calibrated = selection;
+  selection.Run();
+  ReconsiderFirst(calibrated, selection);
   if (validation != nullptr) {
     DropRefuted(*validation, settings.own_validation ? 0 : 1, selection);
   }

@@ -3,8 +3,9 @@
 //
 // Method     calibrate; screen every cause; refit the best few on the nonlinear model; accept the
 //            best; drop earlier ones that the others explain (backward check); again until none
-//            gains kDecisive and kForm of what is explained already. The whitening filter is
-//            re-estimated after every acceptance.
+//            gains kDecisive and a share of what is explained already (form_share). Where all
+//            further causes are small beside the first one, the search is made from other first
+//            causes, too: such a chain is the mark of a wrong first one.
 // Score      nat that a cause adds to all others; of one that was not named, what it would add in
 //            place of the named one it does most for.
 // Validation the same gain in likelihood on records that were not fitted, where there are any. The
@@ -54,7 +55,7 @@ struct Found {
 
 struct SearchSettings {
   std::size_t most_causes{10};
-  double form_share{kForm};
+  double form_share{kForm};  ///< of what is explained, to be gained by a further cause
   /// Validation data are a part of the records themselves: what loses there is no cause at all.
   bool own_validation{false};
   std::function<void(double, const std::string&)> progress;

@@ -51,7 +51,7 @@ void ExpectThePlanToSeparate(const std::string& effect, const std::string& other
   second.scenario = configuration::ParseScenario(levitator::PlanScenario(Levitator().rig, tied),
                                                  "next.yaml", second.rig.numbers);
   const diagnosis::DiagnosisReport separated = Ask(second);
-  ASSERT_EQ(separated.ties.size(), 1U);
+  ASSERT_EQ(separated.ties.size(), 1U) << separated.verdict_sentence;
   EXPECT_EQ(separated.ties.front().cause, effect);
   EXPECT_TRUE(separated.ties.front().others.empty()) << separated.ties.front().others.front();
 }
