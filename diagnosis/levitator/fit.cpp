@@ -127,6 +127,23 @@ Eigen::MatrixXd PrecisionOf(const Eigen::MatrixXd& covariance, const Freedom& fr
   return Eigen::LLT<Eigen::MatrixXd>(correlation).solve(identity);
 }
 
+/// From the covariance in units of the prior's deviations.
+void SetPosterior(const Freedom& freedom, const Eigen::MatrixXd& scaled, Fitted& out) {
+  const auto scale = freedom.deviation.asDiagonal();
+  const Eigen::MatrixXd covariance = scale * scaled * scale;
+  out.deviation.assign(out.theta.size(), 0.0);
+  out.covariance = Eigen::MatrixXd::Zero(kParameters, kParameters);
+  for (std::size_t i = 0; i < freedom.active.size(); ++i) {
+    const auto row = static_cast<Index>(i);
+    out.deviation[freedom.active[i]] = std::sqrt(covariance(row, row));
+    for (std::size_t k = 0; k < freedom.active.size(); ++k) {
+      if (freedom.active[i] >= kParameters || freedom.active[k] >= kParameters) continue;
+      out.covariance(static_cast<Index>(freedom.active[i]), static_cast<Index>(freedom.active[k])) =
+          covariance(row, static_cast<Index>(k));
+    }
+  }
+}
+
 /// A linearisation costs a run per parameter: six damped steps are tried on one. The search ends
 /// with a step that gains half a nat, a tenth of what decides between causes, or a millionth of the
 /// cost, which is far less while the model is still wrong by 1e5 nat.
@@ -208,20 +225,9 @@ Fitted Fitter::Fit(const CauseSet& causes, const Theta& start, const Filters& fi
   const Eigen::LLT<Eigen::MatrixXd> llt(normal.matrix);
   out.squared_sum = cost - Penalty(freedom, out.theta);
   out.evidence = -0.5 * cost - HalfLogDeterminant(llt) + PriorOf(freedom);
-  const Eigen::MatrixXd covariance =
-      llt.solve(Eigen::MatrixXd::Identity(normal.matrix.rows(), normal.matrix.cols()));
-  out.deviation = Zeros(misfit_.series().size());
-  out.covariance = Eigen::MatrixXd::Zero(kParameters, kParameters);
-  for (std::size_t i = 0; i < freedom.active.size(); ++i) {
-    const auto at = static_cast<Index>(i);
-    out.deviation[freedom.active[i]] = freedom.deviation[at] * std::sqrt(covariance(at, at));
-    for (std::size_t k = 0; k < freedom.active.size() && freedom.active[k] < kParameters; ++k) {
-      if (freedom.active[i] >= kParameters) continue;
-      const auto of = static_cast<Index>(k);
-      out.covariance(static_cast<Index>(freedom.active[i]), static_cast<Index>(freedom.active[k])) =
-          freedom.deviation[at] * freedom.deviation[of] * covariance(at, of);
-    }
-  }
+  SetPosterior(freedom,
+               llt.solve(Eigen::MatrixXd::Identity(normal.matrix.rows(), normal.matrix.cols())),
+               out);
   return out;
 }
 
