@@ -27,6 +27,17 @@ std::size_t BlockRows(const RigView& rig) {
   return static_cast<std::size_t>(std::lround(kBlockS / rig.period_s));
 }
 
+FitGain GainOfBlocks(const std::vector<double>& blocks) {
+  FitGain gain;
+  const auto count = static_cast<double>(blocks.size());
+  for (const double block : blocks) gain.value += block;
+  if (blocks.size() < 2) return gain;
+  double scatter = 0.0;
+  for (const double block : blocks) scatter += Squared(block - gain.value / count);
+  gain.deviation = std::sqrt(scatter * count / (count - 1.0));
+  return gain;
+}
+
 FitGain GainedFit(const std::vector<Trajectory>& first, const std::vector<Trajectory>& second,
                   const Whitener& whitener, std::size_t rows) {
   std::vector<double> blocks;
@@ -41,14 +52,7 @@ FitGain GainedFit(const std::vector<Trajectory>& first, const std::vector<Trajec
       blocks.back() += Square(whitener, first[r], n) - Square(whitener, second[r], n);
     }
   }
-  FitGain gain;
-  const auto count = static_cast<double>(blocks.size());
-  if (blocks.size() < 2) return gain;
-  for (const double block : blocks) gain.value += block;
-  double scatter = 0.0;
-  for (const double block : blocks) scatter += Squared(block - gain.value / count);
-  gain.deviation = std::sqrt(scatter * count / (count - 1.0));
-  return gain;
+  return blocks.size() < 2 ? FitGain{} : GainOfBlocks(blocks);
 }
 
 double CameBack(const std::vector<Term>& terms, const std::vector<double>& calibrated,

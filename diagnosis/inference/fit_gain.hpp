@@ -26,6 +26,9 @@ struct FitGain {
   double deviation{};
 };
 
+/// From the differences of paired blocks; the deviation is zero below two of them.
+[[nodiscard]] FitGain GainOfBlocks(const std::vector<double>& blocks);
+
 /// `rows` of a block; samples that count.
 [[nodiscard]] FitGain GainedFit(const std::vector<Trajectory>& first,
                                 const std::vector<Trajectory>& second, const Whitener& whitener,

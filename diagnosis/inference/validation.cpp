@@ -12,10 +12,6 @@
 namespace levitas::diagnosis {
 namespace {
 
-/// [squared innovations] What data cannot show is worth the rounding of their sums, which does not
-/// scatter.
-constexpr double kNothing = 1e-3;
-
 /// Runs on the validation data, compared block by block.
 class Judge {
  public:
@@ -124,10 +120,7 @@ std::optional<std::size_t> Choose(const std::vector<FitGain>& over_leader, doubl
   double most = 0.0;
   for (std::size_t i = 0; i < over_leader.size(); ++i) {
     const FitGain& gain = over_leader[i];
-    if (!std::isfinite(gain.value) ||
-        !(gain.value > std::max(kNothing, deviations * gain.deviation)))
-      continue;
-    if (gain.value <= most) continue;
+    if (!Confirms(gain.value, gain.deviation, deviations) || gain.value <= most) continue;
     most = gain.value;
     best = i;
   }

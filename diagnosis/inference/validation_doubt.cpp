@@ -11,11 +11,14 @@ constexpr double kRounding = 1e-3;
 
 }  // namespace
 
+bool Confirms(double gain, double deviation, double deviations) noexcept {
+  return std::isfinite(gain) && gain > std::max(kRounding, deviations * deviation);
+}
+
 Doubt DoubtOf(double gain, double deviation, double deviations) noexcept {
-  const double least = std::max(kRounding, deviations * deviation);
-  if (!std::isfinite(gain) || gain < -least) return Doubt::kValidationHarm;
+  if (!std::isfinite(gain) || Confirms(-gain, deviation, deviations)) return Doubt::kValidationHarm;
   const bool shows = deviation > 4.0 * deviations;
-  return gain > least || !shows ? Doubt::kNothing : Doubt::kUnconfirmed;
+  return Confirms(gain, deviation, deviations) || !shows ? Doubt::kNothing : Doubt::kUnconfirmed;
 }
 
 double ChanceOfGain(double gain, double deviation) noexcept {

@@ -17,6 +17,9 @@
 
 namespace levitas::diagnosis {
 
+/// A gain beyond `deviations` of its scatter.
+[[nodiscard]] bool Confirms(double gain, double deviation, double deviations) noexcept;
+
 /// kNothing where the gain confirms the causes, or could not. A gain that is no number (the model
 /// diverges) refutes them.
 [[nodiscard]] Doubt DoubtOf(double gain, double deviation, double deviations) noexcept;

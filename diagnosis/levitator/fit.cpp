@@ -132,16 +132,16 @@ void SetPosterior(const Freedom& freedom, const Eigen::MatrixXd& scaled, Fitted&
   const auto scale = freedom.deviation.asDiagonal();
   const Eigen::MatrixXd covariance = scale * scaled * scale;
   out.deviation.assign(out.theta.size(), 0.0);
-  out.covariance = Eigen::MatrixXd::Zero(kParameters, kParameters);
   for (std::size_t i = 0; i < freedom.active.size(); ++i) {
-    const auto row = static_cast<Index>(i);
-    out.deviation[freedom.active[i]] = std::sqrt(covariance(row, row));
-    for (std::size_t k = 0; k < freedom.active.size(); ++k) {
-      if (freedom.active[i] >= kParameters || freedom.active[k] >= kParameters) continue;
-      out.covariance(static_cast<Index>(freedom.active[i]), static_cast<Index>(freedom.active[k])) =
-          covariance(row, static_cast<Index>(k));
-    }
+    const auto at = static_cast<Index>(i);
+    out.deviation[freedom.active[i]] = std::sqrt(covariance(at, at));
   }
+  // Common values come first.
+  const auto own = std::lower_bound(freedom.active.begin(), freedom.active.end(), kParameters);
+  const std::vector<Index> common(freedom.active.begin(), own);
+  const auto count = static_cast<Index>(common.size());
+  out.covariance = Eigen::MatrixXd::Zero(kParameters, kParameters);
+  out.covariance(common, common) = covariance.topLeftCorner(count, count);
 }
 
 /// A linearisation costs a run per parameter: six damped steps are tried on one. The search ends

@@ -72,14 +72,15 @@ diagnosis::ReportRunFit RunFitOf(const Fit& nominal, const Fit& calibrated, cons
 /// Causes that are worth nothing on validation data are suspected, however decisive they were.
 void DoubtUnconfirmed(const Found& found, diagnosis::DiagnosisReport& report) {
   if (report.verdict != diagnosis::Verdict::kEffect || !found.judged) return;
-  const ValidationGain& gain = found.validation;
-  report.doubt = diagnosis::DoubtOf(2.0 * gain.value, 2.0 * gain.deviation,
-                                    diagnosis::Judging{}.gain_deviations);
+  const diagnosis::FitGain& gain = found.validation;
+  report.doubt =
+      diagnosis::DoubtOf(gain.value, gain.deviation, diagnosis::Judging{}.gain_deviations);
   if (report.doubt == diagnosis::Doubt::kNothing) return;
   report.verdict = diagnosis::Verdict::kSuspected;
-  report.probability = report.doubt == diagnosis::Doubt::kValidationHarm
-                           ? diagnosis::ChanceOfGain(gain.value, gain.deviation)
-                           : diagnosis::ChanceOfOpen(found.evidence, gain.value, Causes().size());
+  report.probability =
+      report.doubt == diagnosis::Doubt::kValidationHarm
+          ? diagnosis::ChanceOfGain(gain.value, gain.deviation)
+          : diagnosis::ChanceOfOpen(found.evidence, 0.5 * gain.value, Causes().size());
 }
 
 }  // namespace

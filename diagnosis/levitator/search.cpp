@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "diagnosis/inference/diagnose.hpp"
 
@@ -78,8 +79,7 @@ class ForwardSelection {
     if (!(gained > std::max(diagnosis::kDecisive, settings_.form_share * explained_))) return false;
     explained_ += gained;
     (set_.empty() ? first_ : further_) = set_.empty() ? gained : std::max(further_, gained);
-    now_ = std::move(found);
-    set_ = chosen;
+    Become(chosen, std::move(found));
     Tell(chosen.back());
     return true;
   }
@@ -89,11 +89,8 @@ class ForwardSelection {
     for (bool dropped = true; dropped && set_.size() > 1;) {
       dropped = false;
       for (const std::size_t c : set_) {
-        const CauseSet rest = Without(set_, c);
-        const Fitted fitted = fitter_.Fit(rest, now_.theta, filters_, kSteps);
-        if (now_.evidence - fitted.evidence > diagnosis::kDecisive) continue;
-        set_ = rest;
-        now_ = fitted;
+        if (now_.evidence - FitWithout(c).evidence > diagnosis::kDecisive) continue;
+        Become(Without(set_, c), FitWithout(c));
         dropped = true;
         break;
       }
@@ -119,6 +116,13 @@ class ForwardSelection {
   void Become(const CauseSet& set, Fitted now) {
     set_ = set;
     now_ = std::move(now);
+    without_.clear();
+  }
+  /// The others without this one of the set, fitted once.
+  [[nodiscard]] const Fitted& FitWithout(std::size_t cause) const {
+    const auto [at, is_new] = without_.try_emplace(cause);
+    if (is_new) at->second = fitter_.Fit(Without(set_, cause), now_.theta, filters_, kSteps);
+    return at->second;
   }
 
   [[nodiscard]] const CauseSet& set() const { return set_; }
@@ -137,6 +141,7 @@ class ForwardSelection {
   const SearchSettings& settings_;
   CauseSet set_;
   Fitted now_;
+  mutable std::map<std::size_t, Fitted> without_;
   Filters filters_;
   double explained_{};
   double first_{};    ///< [nat] gained by the first cause
@@ -146,7 +151,7 @@ class ForwardSelection {
 double ValidationEvidence(const Misfit* validation, const Filters& filters, const Theta& with,
                           const Theta& without) {
   if (validation == nullptr) return std::numeric_limits<double>::quiet_NaN();
-  return GainOn(*validation, filters, with, without).value;
+  return 0.5 * GainOn(*validation, filters, with, without).value;
 }
 
 /// Forward from other first causes where small ones follow; the best chain stays.
@@ -169,20 +174,15 @@ void ReconsiderFirst(const ForwardSelection& calibrated, ForwardSelection& selec
 /// one beside it stays, which would stand in its place otherwise.
 void DropRefuted(const Misfit& validation, std::size_t kept, ForwardSelection& selection) {
   while (selection.set().size() > kept) {
-    CauseSet rest;
-    Fitted without;
-    without.evidence = -std::numeric_limits<double>::infinity();
-    for (const std::size_t c : selection.set()) {
-      const CauseSet others = Without(selection.set(), c);
-      Fitted fitted =
-          selection.fitter().Fit(others, selection.now().theta, selection.filters(), kSteps);
-      if (!(fitted.evidence > without.evidence)) continue;
-      without = std::move(fitted);
-      rest = others;
-    }
-    const Theta& with = selection.now().theta;
-    if (GainOn(validation, selection.filters(), with, without.theta).value >= 0.0) return;
-    selection.Become(rest, std::move(without));
+    const CauseSet& set = selection.set();
+    const std::size_t weakest =
+        *std::max_element(set.begin(), set.end(), [&](std::size_t a, std::size_t b) {
+          return selection.FitWithout(a).evidence < selection.FitWithout(b).evidence;
+        });
+    const Fitted& rest = selection.FitWithout(weakest);
+    if (GainOn(validation, selection.filters(), selection.now().theta, rest.theta).value >= 0.0)
+      return;
+    selection.Become(Without(set, weakest), rest);
   }
 }
 
@@ -242,8 +242,7 @@ std::vector<Score> Rank(const ForwardSelection& selection, const Misfit* validat
     RankInPlace(selection, validation, {}, selection.now(), none, 0.0, others);
   for (const std::size_t c : selection.set()) {
     const CauseSet rest = Without(selection.set(), c);
-    const Fitted base =
-        selection.fitter().Fit(rest, selection.now().theta, selection.filters(), kSteps);
+    const Fitted& base = selection.FitWithout(c);
     const double nat = selection.now().evidence - base.evidence;
     named.push_back(
         {c, nat,
@@ -262,20 +261,13 @@ std::vector<Score> Rank(const ForwardSelection& selection, const Misfit* validat
 
 }  // namespace
 
-ValidationGain GainOn(const Misfit& validation, const Filters& filters, const Theta& with,
-                      const Theta& without) {
+diagnosis::FitGain GainOn(const Misfit& validation, const Filters& filters, const Theta& with,
+                          const Theta& without) {
   const std::size_t records = validation.series().size();
-  const std::vector<double> before = validation.BlockSums(SharedPart(without, records), filters);
-  const std::vector<double> after = validation.BlockSums(SharedPart(with, records), filters);
-  const auto blocks = static_cast<double>(before.size());
-  double sum = 0.0;
-  double squared = 0.0;
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    const double gain = 0.5 * (before[i] - after[i]);
-    sum += gain;
-    squared += gain * gain;
-  }
-  return {sum, std::sqrt(std::max(0.0, squared - sum * sum / std::max(1.0, blocks)))};
+  std::vector<double> gain = validation.BlockSums(SharedPart(without, records), filters);
+  const std::vector<double> left = validation.BlockSums(SharedPart(with, records), filters);
+  for (std::size_t i = 0; i < gain.size(); ++i) gain[i] -= left[i];
+  return diagnosis::GainOfBlocks(gain);
 }
 
 Theta SharedPart(const Theta& theta, std::size_t records) {

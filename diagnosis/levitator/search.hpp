@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/inference/fit_gain.hpp"
 #include "diagnosis/levitator/fit.hpp"
 
 namespace levitas::levitator {
@@ -25,12 +26,6 @@ inline constexpr double kForm = 0.001;  ///< share of the evidence that a law's 
 
 /// Causes within this share of a cause's evidence are a tie: force laws are not known better.
 inline constexpr double kFormOfTie = 0.005;
-
-/// [nat] On records that were not fitted; the deviation from the scatter of blocks.
-struct ValidationGain {
-  double value{};
-  double deviation{};
-};
 
 struct Score {
   std::size_t cause{};  ///< index into Causes()
@@ -46,11 +41,11 @@ struct Found {
   CauseSet causes;  ///< the weightiest first
   Fitted calibrated;
   Fitted extended;
-  Filters filters;            ///< of the extended model
-  std::vector<Score> scores;  ///< best variant of every effect, named ones first
-  double evidence{};          ///< [nat] of all causes together
-  bool judged{};              ///< there were such records
-  ValidationGain validation;  ///< of all causes together on them
+  Filters filters;                ///< of the extended model
+  std::vector<Score> scores;      ///< best variant of every effect, named ones first
+  double evidence{};              ///< [nat] of all causes together
+  bool judged{};                  ///< there were such records
+  diagnosis::FitGain validation;  ///< of all causes together on them
 };
 
 struct SearchSettings {
@@ -65,8 +60,8 @@ struct SearchSettings {
                            const SearchSettings& settings);
 
 /// What `with` explains beyond `without` of records that neither was fitted to.
-[[nodiscard]] ValidationGain GainOn(const Misfit& validation, const Filters& filters,
-                                    const Theta& with, const Theta& without);
+[[nodiscard]] diagnosis::FitGain GainOn(const Misfit& validation, const Filters& filters,
+                                        const Theta& with, const Theta& without);
 
 /// Parameters of a fit for validation records: of the per-record parameters, the mean.
 [[nodiscard]] Theta SharedPart(const Theta& theta, std::size_t records);

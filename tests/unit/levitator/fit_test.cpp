@@ -98,13 +98,12 @@ class FitOfAKnownRig : public testing::Test {
 TEST_F(FitOfAKnownRig, IsWorthOnOtherRecordsWhatItExplainsBlockByBlock) {
   const Misfit misfit(rig_, series_);
   const Filters filters = misfit.Whiten(truth_, kMemory);
-  const ValidationGain gain = GainOn(misfit, filters, truth_, Zeros(1));
-  EXPECT_NEAR(gain.value,
-              0.5 * (misfit.SquaredSum(Zeros(1), filters) - misfit.SquaredSum(truth_, filters)),
+  const diagnosis::FitGain gain = GainOn(misfit, filters, truth_, Zeros(1));
+  EXPECT_NEAR(gain.value, misfit.SquaredSum(Zeros(1), filters) - misfit.SquaredSum(truth_, filters),
               1e-6 * gain.value);
   EXPECT_GT(gain.value, 3.0 * gain.deviation) << "every block gains";
   EXPECT_GT(gain.deviation, 0.0);
-  const ValidationGain loss = GainOn(misfit, filters, Zeros(1), truth_);
+  const diagnosis::FitGain loss = GainOn(misfit, filters, Zeros(1), truth_);
   EXPECT_NEAR(loss.value, -gain.value, 1e-9 * gain.value);
 }
 
