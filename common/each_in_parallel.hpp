@@ -6,11 +6,13 @@
 //         kept per index, in a number of parts that is a constant.
 // Number  the processors that the process may run on (`taskset -c 0` makes it one), or
 //         LEVITAS_THREADS where that is set.
-// Thread  blocks the caller, which is one of them. Failure: what `work` throws ends the program.
+// Thread  blocks the caller, which is one of them. Failure: what `work` throws ends the program,
+//         except in EachThatMayFail.
 
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <exception>
 #include <thread>
 #include <vector>
 
@@ -30,6 +32,22 @@ void EachInParallel(std::size_t count, std::size_t threads, const Work& work) {
   std::vector<std::jthread> others;
   for (std::size_t t = 1; t < used; ++t) others.emplace_back(share);
   share();
+}
+
+/// The same; what the work of the lowest index throws is thrown when all is done.
+template <class Work>
+void EachThatMayFail(std::size_t count, const Work& work) {
+  std::vector<std::exception_ptr> failures(count);
+  EachInParallel(count, 0, [&](std::size_t i) {
+    try {
+      work(i);
+    } catch (...) {
+      failures[i] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& failure : failures) {
+    if (failure) std::rethrow_exception(failure);
+  }
 }
 
 }  // namespace levitas

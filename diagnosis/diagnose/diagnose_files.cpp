@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "analysis/records/recorded_rows.hpp"
+#include "common/each_in_parallel.hpp"
 #include "common/problem.hpp"
 #include "diagnosis/inference/calibrate.hpp"
 #include "diagnosis/inference/events.hpp"
@@ -23,11 +24,9 @@ namespace levitas::diagnosis {
 namespace {
 
 std::vector<Record> Load(const std::vector<std::string>& paths, const DiagnosisRequest& inputs) {
-  std::vector<Record> records;
-  records.reserve(paths.size());
-  for (const std::string& path : paths) {
-    records.push_back(LoadRecord(path, inputs.rig));
-  }
+  std::vector<Record> records(paths.size());
+  EachThatMayFail(paths.size(),
+                  [&](std::size_t i) { records[i] = LoadRecord(paths[i], inputs.rig); });
   return records;
 }
 

@@ -25,7 +25,7 @@
 
 namespace levitas::diagnosis {
 
-inline constexpr std::size_t kShareRows = 40'000;
+inline constexpr std::size_t kShareRows = 16'000;
 
 struct ErrorShare {
   std::optional<effect::Id> effect;  ///< none: shapes of the modes

@@ -113,9 +113,11 @@ Evidence::Adapted Evidence::Unchanged() const {
   return {Eigen::VectorXd::Zero(base_.cols()), Eigen::VectorXd::Zero(base_.rows()), 0.0};
 }
 
-Evidence::Adapted Evidence::Adapt(const NormalEquations& there, const Adapted& so_far) const {
+Evidence::Adapted Evidence::Adapt(const NormalEquations& there, const Adapted& so_far,
+                                  double damping) const {
   const Eigen::MatrixXd prior = factor_ * factor_.transpose();
-  const Eigen::MatrixXd both = prior + base_.transpose() * there.jtj * base_;
+  Eigen::MatrixXd both = prior + base_.transpose() * there.jtj * base_;
+  both.diagonal() *= 1.0 + damping;
   const Eigen::VectorXd uphill = base_.transpose() * there.jte + prior * so_far.parameters;
   const Eigen::VectorXd parameters = so_far.parameters - both.llt().solve(uphill);
   return {parameters, base_ * parameters, (factor_.transpose() * parameters).squaredNorm()};

@@ -81,8 +81,10 @@ class Evidence {
     Eigen::VectorXd change;      ///< of theta, from the solution; units of Term::scale()
     double penalty{};            ///< squared sum of the parameters over their prior
   };
-  /// A Gauss-Newton step from `so_far`, where `there` are the other data's normal equations.
-  [[nodiscard]] Adapted Adapt(const NormalEquations& there, const Adapted& so_far) const;
+  /// A Gauss-Newton step from `so_far`, where `there` are the other data's normal equations;
+  /// `damping` is what the diagonal grows by (Marquardt 1963, J. SIAM 11(2), 431).
+  [[nodiscard]] Adapted Adapt(const NormalEquations& there, const Adapted& so_far,
+                              double damping = 0.0) const;
   /// No change.
   [[nodiscard]] Adapted Unchanged() const;
 

@@ -46,6 +46,17 @@ void Rank(std::vector<Candidate>& candidates, Candidate named) {
   SortByScore(candidates);
 }
 
+/// Ranks the cause that was named last.
+void RankNamed(const RecordLandscape& landscape, double gain_nat, CauseSelection& found) {
+  const Hypothesis& named = found.causes.back();
+  const auto& all = landscape.hypotheses();
+  const auto own = std::find_if(all.begin(), all.end(), [&named](const Hypothesis& h) {
+    return h.effect == named.effect && h.place == named.place;
+  });
+  Rank(found.candidates,
+       {named.effect, named.place, gain_nat, static_cast<std::size_t>(own - all.begin()), true});
+}
+
 /// True when a cause was added.
 bool NameOne(const RecordLandscape& landscape, const SelectionRules& rules, CauseSelection& found) {
   const Fit fit = landscape.EvidenceGiven(found.causes).Solve();
@@ -73,16 +84,36 @@ bool NameOne(const RecordLandscape& landscape, const SelectionRules& rules, Caus
   const bool first = found.causes.empty();
   found.causes = std::move(best.causes);
   found.point = best.fit.point;
-  const Hypothesis& named = found.causes.back();
-  if (first) {
-    const auto& all = landscape.hypotheses();
-    const auto own = std::find_if(all.begin(), all.end(), [&named](const Hypothesis& h) {
-      return h.effect == named.effect && h.place == named.place;
-    });
-    Rank(found.candidates, {named.effect, named.place, best.fit.evidence - before.evidence,
-                            static_cast<std::size_t>(own - all.begin()), true});
-  }
+  if (first) RankNamed(landscape, best.fit.evidence - before.evidence, found);
   return true;
+}
+
+/// Without causes that evidence does not ask for beside those named after them: a number that moved
+/// on the way to another one may be back in its tolerance.
+void DropNeedless(const RecordLandscape& landscape, const SelectionRules& rules,
+                  CauseSelection& found) {
+  Refined whole = landscape.Fit(found.causes, found.point, rules.effort.passes);
+  for (std::size_t i = 0; whole.ok && i + 1 < found.causes.size();) {
+    const std::vector<Hypothesis> rest = Without(found.causes, i);
+    Point start = whole.point;
+    for (const std::size_t term : found.causes[i].terms) {
+      const Term& t = landscape.terms()[term];
+      if (!t.nuisance() && !Moves(rest, term)) start.theta[term] = t.healthy_mean;
+    }
+    Refined fit = landscape.Fit(rest, start, rules.effort.passes, whole.evidence);
+    if (!fit.ok || fit.evidence < whole.evidence) {
+      ++i;
+      continue;
+    }
+    std::erase_if(found.candidates,
+                  [&](const Candidate& c) { return c.effect == found.causes[i].effect; });
+    found.causes = rest;
+    found.point = fit.point;
+    whole = std::move(fit);
+  }
+  if (found.causes.size() != 1) return;
+  const Refined null = landscape.Fit({}, found.WithoutCauses(), 1);
+  if (null.ok && whole.ok) RankNamed(landscape, whole.evidence - null.evidence, found);
 }
 
 }  // namespace
@@ -112,7 +143,11 @@ std::vector<std::size_t> MovedBeyond(const std::vector<Term>& terms, const Fit& 
 
 void NameMovedCalibration(const RecordLandscape& landscape, const SelectionRules& rules,
                           CauseSelection& found) {
+  const std::size_t before = found.causes.size();
   while (found.causes.size() < rules.most_causes && NameOne(landscape, rules, found)) {
+  }
+  if (found.causes.size() > std::max<std::size_t>(before, 1)) {
+    DropNeedless(landscape, rules, found);
   }
 }
 

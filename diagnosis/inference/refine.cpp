@@ -37,6 +37,8 @@ struct Descent {
   std::shared_ptr<const Slopes> slopes;
   bool current = false;  ///< the Jacobian was taken at best.point
   int refused = 0;
+  double misfit{};  ///< [nat] at best.point, whitened by its own innovations
+  double misfit_at_jacobian{std::numeric_limits<double>::infinity()};  ///< where it was taken
 };
 
 /// A shorter step in place of the one that was refused; false: enough were.
@@ -66,11 +68,27 @@ void StepOn(const Search& search, const std::vector<Term>& terms,
             Descent& d) {
   if (d.current) {
     d.slopes = search.SlopesOf(runs, d.at, search.NuisancesAnd(causes));
+    d.misfit_at_jacobian = d.misfit;
   }
   d.best.problem = search.About(d.slopes->Sum(runs, d.whitener), d.at.theta);
   d.best.evidence = Refiner::EvidenceOfSet(d.best.problem, terms, causes);
   d.damping.Accept();
   d.at.theta = search.Step(d.best.problem, causes, d.best.point.theta, d.damping.value());
+}
+
+/// What runs leave behind a filter.
+struct Left {
+  double squared_sum{};
+  double log_power{};  ///< of the noise that the filter claims, over all values
+};
+
+Left LeftOf(const std::vector<Trajectory>& runs, std::size_t axes, const Whitener& whitener) {
+  Left left;
+  std::size_t values = 0;
+  left.squared_sum = SquaredSum(runs, axes, whitener, &values);
+  for (const auto& filter : whitener.filter) left.log_power -= 2.0 * std::log(filter.front());
+  left.log_power *= static_cast<double>(values) / static_cast<double>(axes);
+  return left;
 }
 
 }  // namespace
@@ -234,21 +252,17 @@ Search::ShapeStep Refiner::StepAlong(const std::vector<Hypothesis>& causes, cons
 double Refiner::Misfit(const Point& point, std::size_t whitening_order,
                        const std::vector<Hypothesis>& causes) const {
   const auto runs = search_.Run(records_, gains_, point);
-  const Whitener whitener = MakeWhitener(runs, axes_, whitening_order);
-  std::size_t values = 0;
   // Not just their number: of innovations that swing, or belong to some rows alone, the filter
   // leaves more than it claims.
-  const double squared_sum = SquaredSum(runs, axes_, whitener, &values);
-  double log_power = 0.0;
-  for (const auto& filter : whitener.filter) log_power -= 2.0 * std::log(filter.front());
-  const double samples = static_cast<double>(values) / static_cast<double>(axes_);
-  return 0.5 * (log_power * samples + squared_sum + Penalty(point.theta, causes));
+  const Left left = LeftOf(runs, axes_, MakeWhitener(runs, axes_, whitening_order));
+  return 0.5 * (left.log_power + left.squared_sum + Penalty(point.theta, causes));
 }
 
 Refined Refiner::Approach(Point start, std::size_t whitening_order, int passes,
                           const std::vector<Hypothesis>& causes) const {
   constexpr double kConverged = 1.0;  // [nat]
   constexpr double kFar = 100.0;      // [nat] a step that gains more has left its linearisation
+  constexpr double kWorthOne = 5.0;   // [nat] of misfit that a Jacobian must take away
   Descent d;
   d.at = std::move(start);
   for (int pass = 0; pass < passes;) {
@@ -263,12 +277,18 @@ Refined Refiner::Approach(Point start, std::size_t whitening_order, int passes,
       runs = search_.Run(records_, gains_, d.at);
     }
     d.whitener = search_.WhitenerOf(runs, whitening_order);
-    d.best.cost = 0.5 * (SquaredSum(runs, axes_, d.whitener) + Penalty(d.at.theta, causes));
+    const Left left = LeftOf(runs, axes_, d.whitener);
+    const double penalty = Penalty(d.at.theta, causes);
+    d.best.cost = 0.5 * (left.squared_sum + penalty);
+    d.misfit = 0.5 * (left.log_power + left.squared_sum + penalty);
     if (!std::isfinite(d.best.cost)) break;
     d.best.point = d.at;
     d.best.ok = true;
     d.refused = 0;
-    if (gained < kConverged && d.current) break;
+    // The filter follows the fit, which may creep by a nat for ever where the model lacks a cause:
+    // a Jacobian that hardly lowered the misfit is not followed by another one.
+    const bool settled = d.current || !(d.misfit < d.misfit_at_jacobian - kWorthOne);
+    if (gained < kConverged && settled) break;
     d.current = !d.slopes || gained > kFar || gained < kConverged;
     StepOn(search_, terms_, causes, runs, d);
     ++pass;

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "diagnosis/inference/calibrate.hpp"
 #include "diagnosis/inference/validation_doubt.hpp"
 #include "diagnosis/model/divergence.hpp"
 
@@ -28,32 +29,20 @@ class Judge {
   /// Of a set that was fitted to the point; `movable`: of its numbers those that may adapt.
   [[nodiscard]] Forecast Of(const std::vector<Hypothesis>& causes, const Point& fit,
                             const std::vector<std::size_t>& movable) const {
-    const Whitener& whitener = landscape_.view().whitener;
     const Evidence fitted = landscape_.EvidenceGiven(causes);
-    Evidence::Adapted adapted = fitted.Unchanged();
-    Point at = fit;
-    Forecast best{RunAt(at), 0.0};
-    double least = Squared(best);
-    for (int step = 0; step < kSteps; ++step) {
-      const View there = landscape_.search().Linearise(best.runs, at, whitener, movable);
-      if (SensitivitiesDiverge(there.sum)) break;
-      const auto next = fitted.Adapt(there.sum, adapted);
-      Point moved = fit;
-      for (const std::size_t i : movable) {
-        moved.theta[i] += next.change[static_cast<Eigen::Index>(i)] * landscape_.terms()[i].scale();
-      }
-      Forecast tried{RunAt(moved), next.penalty};
-      const double squared = Squared(tried);
-      if (!(squared < least)) break;
-      const bool converged = squared > least - kConverged;
-      best = std::move(tried);
-      least = squared;
-      adapted = next;
-      at = std::move(moved);
-      if (converged) break;
+    State now = At(fit, movable, fitted.Unchanged());
+    // What is not adapted yet is no noise: first the records are weighed by what is left of them.
+    for (int step = 0; step < kFarSteps; ++step) {
+      const Whitener own = landscape_.search().WhitenerOf(*now.forecast.runs, kWhiteningOrder);
+      if (!Downhill(fitted, fit, movable, own, now)) break;
     }
-    return best;
+    for (int step = 0; step < kNearSteps; ++step) {
+      if (!Downhill(fitted, fit, movable, landscape_.view().whitener, now)) break;
+    }
+    return now.forecast;
   }
+  /// As fitted: nothing adapts.
+  [[nodiscard]] Forecast Plain(const Point& fit) const { return {RunAt(fit), 0.0}; }
   [[nodiscard]] FitGain Gain(const Forecast& first, const Forecast& second) const {
     FitGain gain = GainedFit(*first.runs, *second.runs, landscape_.view().whitener, rows_);
     gain.value += first.penalty - second.penalty;
@@ -61,18 +50,57 @@ class Judge {
   }
 
  private:
+  struct State {
+    Forecast forecast;
+    Evidence::Adapted adapted;
+    Point point;
+  };
+  /// `movable` of the fit's numbers moved as they adapted.
+  [[nodiscard]] State At(const Point& fit, const std::vector<std::size_t>& movable,
+                         const Evidence::Adapted& adapted) const {
+    State state{{nullptr, adapted.penalty}, adapted, fit};
+    for (const std::size_t i : movable) {
+      const Term& term = landscape_.terms()[i];
+      const double moved = adapted.change[static_cast<Eigen::Index>(i)] * term.scale();
+      state.point.theta[i] = std::max(fit.theta[i] + moved, LeastPossible(term));
+    }
+    state.forecast.runs = RunAt(state.point);
+    return state;
+  }
+
   [[nodiscard]] Runs RunAt(const Point& point) const {
     return std::make_shared<const std::vector<Trajectory>>(
         landscape_.search().Run(validation_, gains_, point));
   }
 
-  /// Whitened innovations and what was paid for them.
-  [[nodiscard]] double Squared(const Forecast& forecast) const {
-    return SquaredSum(*forecast.runs, landscape_.rig().axes, landscape_.view().whitener) +
-           forecast.penalty;
+  /// Whether a step lowered the cost. A critical speed that moves bends more than a straight line:
+  /// a step that overshoots is damped, or a set that needs to adapt would seem to foretell nothing.
+  [[nodiscard]] bool Downhill(const Evidence& fitted, const Point& fit,
+                              const std::vector<std::size_t>& movable, const Whitener& whitener,
+                              State& now) const {
+    const View there =
+        landscape_.search().Linearise(now.forecast.runs, now.point, whitener, movable);
+    if (SensitivitiesDiverge(there.sum)) return false;
+    const double before = Squared(now.forecast, whitener);
+    for (double damping = 0.0; damping < kMostDamping;
+         damping = std::max(kLeastDamping, 10.0 * damping)) {
+      State tried = At(fit, movable, fitted.Adapt(there.sum, now.adapted, damping));
+      if (!(Squared(tried.forecast, whitener) < before - kConverged)) continue;
+      now = std::move(tried);
+      return true;
+    }
+    return false;
   }
 
-  static constexpr int kSteps = 4;
+  /// Whitened innovations and what was paid for them.
+  [[nodiscard]] double Squared(const Forecast& forecast, const Whitener& whitener) const {
+    return SquaredSum(*forecast.runs, landscape_.rig().axes, whitener) + forecast.penalty;
+  }
+
+  static constexpr int kFarSteps = 8;
+  static constexpr int kNearSteps = 4;
+  static constexpr double kLeastDamping = 0.1;
+  static constexpr double kMostDamping = 2e3;
   static constexpr double kConverged = 3.0;
 
   const RecordLandscape& landscape_;
@@ -82,16 +110,19 @@ class Judge {
 };
 
 /// The calibrated model without the causes, which stay away.
+Point PointWithoutCauses(const RecordLandscape& landscape, const CauseSelection& found) {
+  Point point = found.WithoutCauses();
+  for (std::size_t i = 0; i < point.theta.size(); ++i) {
+    if (Moves(found.causes, i)) point.theta[i] = landscape.terms()[i].healthy_mean;
+  }
+  return point;
+}
+
 Judge::Forecast WithoutCauses(const RecordLandscape& landscape, const CauseSelection& found,
                               const Judge& judge) {
-  Point point = found.WithoutCauses();
-  std::vector<std::size_t> movable;
-  for (std::size_t i = 0; i < point.theta.size(); ++i) {
-    const bool cause = Moves(found.causes, i);
-    if (cause) point.theta[i] = landscape.terms()[i].healthy_mean;
-    if (!cause && landscape.terms()[i].nuisance()) movable.push_back(i);
-  }
-  return judge.Of({}, point, movable);
+  std::vector<std::size_t> movable = landscape.search().Nuisances();
+  std::erase_if(movable, [&found](std::size_t i) { return Moves(found.causes, i); });
+  return judge.Of({}, PointWithoutCauses(landscape, found), movable);
 }
 
 Judge::Forecast With(const RecordLandscape& landscape, const Judge& judge,
@@ -152,6 +183,12 @@ void JudgeOnValidation(RecordLandscape& landscape, const std::vector<Record>& va
                        With(landscape, judge, found.causes, found.point));
   }
   found.doubt = DoubtOf(worth.value, worth.deviation, deviations);
+  if (found.doubt == Doubt::kUnconfirmed) {
+    // A wrong calibration may adapt as far as it must; what was foretold without that counts, too.
+    const FitGain plain = judge.Gain(judge.Plain(PointWithoutCauses(landscape, found)),
+                                     judge.Plain(found.point));
+    if (Confirms(plain.value, plain.deviation, deviations)) found.doubt = Doubt::kNothing;
+  }
   if (found.doubt == Doubt::kValidationHarm) {
     found.probability = ChanceOfGain(worth.value, worth.deviation);
   } else if (found.doubt == Doubt::kUnconfirmed) {

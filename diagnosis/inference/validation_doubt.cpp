@@ -17,7 +17,7 @@ bool Confirms(double gain, double deviation, double deviations) noexcept {
 
 Doubt DoubtOf(double gain, double deviation, double deviations) noexcept {
   if (!std::isfinite(gain) || Confirms(-gain, deviation, deviations)) return Doubt::kValidationHarm;
-  const bool shows = deviation > 4.0 * deviations;
+  const bool shows = deviation > 8.0 * deviations;
   return Confirms(gain, deviation, deviations) || !shows ? Doubt::kNothing : Doubt::kUnconfirmed;
 }
 

@@ -7,8 +7,9 @@
 // Confirmed  beyond `deviations` of the scatter; refuted: below that on the other side.
 // Open       between the two. Two models whose forecasts are D apart, squared, differ by D in the
 //            mean where one of them is right, with a scatter of 2 sqrt(D). So data that scatter by
-//            less than 4 `deviations` do not confirm even what is right: they cannot show the
-//            causes (an unbalance at rest), and are no reason to doubt them.
+//            less than 8 `deviations` leave what is right unconfirmed in more than one case of 20,
+//            as many as `deviations` of 1.645 stand for: they can hardly show the causes (an
+//            unbalance at rest), and are no reason to doubt them.
 // Thread     any; pure.
 
 #include <cstddef>

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "common/each_in_parallel.hpp"
 #include "diagnosis/model/convolve.hpp"
 #include "diagnosis/model/innovation_series.hpp"
 #include "diagnosis/model/levinson.hpp"
@@ -87,7 +89,8 @@ AxisArray MotionOf(const std::vector<Trajectory>& runs, std::size_t axes) {
 
 Whitener MakeWhitener(const std::vector<Trajectory>& runs, std::size_t axes, std::size_t order) {
   Whitener whitener{order, {}};
-  for (std::size_t a = 0; a < axes; ++a) whitener.filter.push_back(FilterOf(runs, a, order));
+  whitener.filter.resize(axes);
+  EachInParallel(axes, 0, [&](std::size_t a) { whitener.filter[a] = FilterOf(runs, a, order); });
   return whitener;
 }
 
@@ -107,24 +110,24 @@ Whitener MakeWhitener(const std::vector<Trajectory>& runs, std::size_t axes, std
 
 double SquaredSum(const std::vector<Trajectory>& runs, std::size_t axes, const Whitener& whitener,
                   std::size_t* values) {
-  double sum = 0.0;
-  std::size_t count = 0;
-  for (const Trajectory& run : runs) {
+  const std::size_t order = whitener.order;
+  std::vector<double> sums(runs.size() * axes, 0.0);
+  std::vector<std::size_t> counted(sums.size(), 0);
+  EachInParallel(sums.size(), 0, [&](std::size_t i) {
+    const Trajectory& run = runs[i / axes];
+    const std::size_t a = i % axes;
     const std::size_t samples = run.moments.size();
-    std::vector<std::vector<double>> white(axes, std::vector<double>(samples));
-    for (std::size_t a = 0; a < axes; ++a) {
-      const std::vector<double> innovations = InnovationSeries(run, a, whitener.order);
-      Convolve(whitener.filter[a], innovations.data() + whitener.order, samples, white[a].data());
+    std::vector<double> white(samples);
+    const std::vector<double> innovations = InnovationSeries(run, a, order);
+    Convolve(whitener.filter[a], innovations.data() + order, samples, white.data());
+    for (std::size_t n = order; n < samples; ++n) {
+      if (!run.moments[n].counts) continue;
+      sums[i] += white[n] * white[n];
+      ++counted[i];
     }
-    const std::vector<std::uint8_t> counts = Counting(run);
-    for (std::size_t n = whitener.order; n < samples; ++n) {
-      if (counts[n] == 0) continue;
-      for (std::size_t a = 0; a < axes; ++a) sum += white[a][n] * white[a][n];
-      count += axes;
-    }
-  }
-  if (values != nullptr) *values = count;
-  return sum;
+  });
+  if (values != nullptr) *values = std::accumulate(counted.begin(), counted.end(), std::size_t{0});
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 }  // namespace levitas::diagnosis

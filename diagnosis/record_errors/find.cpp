@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/each_in_parallel.hpp"
 #include "common/problem.hpp"
 #include "diagnosis/record_errors/columns.hpp"
 #include "diagnosis/record_errors/gaps.hpp"
@@ -116,8 +117,9 @@ RecordErrors FindRecordErrors(const RigView& rig, const Record& record,
 
 std::vector<RecordErrors> FindErrorsOfRecords(const RigView& rig,
                                               const std::vector<Record>& records) {
-  std::vector<RecordErrors> found;
-  for (const Record& record : records) found.push_back(FindRecordErrors(rig, record));
+  std::vector<RecordErrors> found(records.size());
+  EachThatMayFail(records.size(),
+                  [&](std::size_t i) { found[i] = FindRecordErrors(rig, records[i], {}); });
   const ColumnUses right;
   const auto shown = std::ranges::find_if(found, [&](const RecordErrors& errors) {
     return errors.has_test_signal && !(errors.wiring == right);

@@ -13,15 +13,17 @@ namespace {
 constexpr double kDeviations = 1.645;
 
 TEST(DoubtOf, ConfirmsWhatGainsBeyondItsScatter) {
-  EXPECT_EQ(DoubtOf(20.0, 10.0, kDeviations), Doubt::kNothing);
-  EXPECT_EQ(DoubtOf(16.0, 10.0, kDeviations), Doubt::kUnconfirmed);
-  EXPECT_EQ(DoubtOf(-16.0, 10.0, kDeviations), Doubt::kUnconfirmed);
-  EXPECT_EQ(DoubtOf(-17.0, 10.0, kDeviations), Doubt::kValidationHarm);
+  EXPECT_EQ(DoubtOf(40.0, 20.0, kDeviations), Doubt::kNothing);
+  EXPECT_EQ(DoubtOf(32.0, 20.0, kDeviations), Doubt::kUnconfirmed);
+  EXPECT_EQ(DoubtOf(-32.0, 20.0, kDeviations), Doubt::kUnconfirmed);
+  EXPECT_EQ(DoubtOf(-33.0, 20.0, kDeviations), Doubt::kValidationHarm);
 }
 
 // Forecasts that are 9 apart, squared, scatter by 6: less than what a right cause would need.
 TEST(DoubtOf, IsNoneWhereTheDataCouldNotConfirmARightCause) {
   EXPECT_EQ(DoubtOf(9.0, 6.0, kDeviations), Doubt::kNothing);
+  EXPECT_EQ(DoubtOf(20.0, 13.0, kDeviations), Doubt::kNothing);
+  EXPECT_EQ(DoubtOf(20.0, 14.0, kDeviations), Doubt::kUnconfirmed);
   EXPECT_EQ(DoubtOf(0.0, 0.0, kDeviations), Doubt::kNothing);
   EXPECT_EQ(DoubtOf(-12.0, 6.0, kDeviations), Doubt::kValidationHarm);
 }
