@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "benchmark/accuracy/available_evidence.hpp"
 #include "benchmark/accuracy/drawn_rig.hpp"
@@ -65,6 +66,18 @@ void ListMissed(const accuracy::Trial& trial, accuracy::TrialScore& outcome) {
   }
 }
 
+/// All records of a trial are fitted, or the last one judges.
+diagnosis::DiagnosisReport Report(const accuracy::Trial& trial, const BenchOptions& options,
+                                  const diagnosis::Settings& settings) {
+  std::vector<diagnosis::Record> fitted = trial.records;
+  std::vector<diagnosis::Record> judging;
+  if (options.held_out) {
+    judging.push_back(std::move(fitted.back()));
+    fitted.pop_back();
+  }
+  return diagnosis::BuildReport(diagnosis::DiagnoseRecords(trial.rig, fitted, judging, settings));
+}
+
 accuracy::TrialScore Try(const accuracy::TrialPlan& plan, const accuracy::TestRig& bench,
                          const BenchOptions& options) {
   const accuracy::Trial trial =
@@ -74,16 +87,14 @@ accuracy::TrialScore Try(const accuracy::TrialPlan& plan, const accuracy::TestRi
   settings.quick = options.quick;
   settings.judging = options.judging;
   const auto start = std::chrono::steady_clock::now();
-  const diagnosis::DiagnosisReport report =
-      diagnosis::BuildReport(diagnosis::DiagnoseRecords(trial.rig, trial.records, {}, settings));
+  const diagnosis::DiagnosisReport report = Report(trial, options, settings);
   accuracy::TrialScore outcome = accuracy::Judge(plan, trial.ground_truth, report);
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (outcome.truth.size() > 1 && plan.side_size == 1.0) ListMissed(trial, outcome);
   if (!outcome.truth.empty() && !outcome.Right()) {
     // What the records hold for an effect that was not named is found by being told of it.
     settings.only = outcome.truth.front();
-    const auto informed =
-        diagnosis::BuildReport(diagnosis::DiagnoseRecords(trial.rig, trial.records, {}, settings));
+    const auto informed = Report(trial, options, settings);
     const bool known =
         !outcome.missed.empty() && outcome.missed.front().first == outcome.truth.front();
     accuracy::AddInformedDiagnosis(

@@ -88,34 +88,6 @@ bool NameOne(const RecordLandscape& landscape, const SelectionRules& rules, Caus
   return true;
 }
 
-/// Without causes that evidence does not ask for beside those named after them: a number that moved
-/// on the way to another one may be back in its tolerance.
-void DropNeedless(const RecordLandscape& landscape, const SelectionRules& rules,
-                  CauseSelection& found) {
-  Refined whole = landscape.Fit(found.causes, found.point, rules.effort.passes);
-  for (std::size_t i = 0; whole.ok && i + 1 < found.causes.size();) {
-    const std::vector<Hypothesis> rest = Without(found.causes, i);
-    Point start = whole.point;
-    for (const std::size_t term : found.causes[i].terms) {
-      const Term& t = landscape.terms()[term];
-      if (!t.nuisance() && !Moves(rest, term)) start.theta[term] = t.healthy_mean;
-    }
-    Refined fit = landscape.Fit(rest, start, rules.effort.passes, whole.evidence);
-    if (!fit.ok || fit.evidence < whole.evidence) {
-      ++i;
-      continue;
-    }
-    std::erase_if(found.candidates,
-                  [&](const Candidate& c) { return c.effect == found.causes[i].effect; });
-    found.causes = rest;
-    found.point = fit.point;
-    whole = std::move(fit);
-  }
-  if (found.causes.size() != 1) return;
-  const Refined null = landscape.Fit({}, found.WithoutCauses(), 1);
-  if (null.ok && whole.ok) RankNamed(landscape, whole.evidence - null.evidence, found);
-}
-
 }  // namespace
 
 double SurelyAway(const Term& term, const Fit& fit, const std::vector<double>& theta,
@@ -141,14 +113,38 @@ std::vector<std::size_t> MovedBeyond(const std::vector<Term>& terms, const Fit& 
   return indices;
 }
 
+void DropNeedless(const RecordLandscape& landscape, const SelectionRules& rules, std::size_t from,
+                  CauseSelection& found) {
+  Refined whole = landscape.Fit(found.causes, found.point, rules.effort.passes);
+  for (std::size_t i = from; whole.ok && i + 1 < found.causes.size();) {
+    const std::vector<Hypothesis> rest = Without(found.causes, i);
+    Point start = whole.point;
+    for (const std::size_t term : found.causes[i].terms) {
+      const Term& t = landscape.terms()[term];
+      if (!t.nuisance() && !Moves(rest, term)) start.theta[term] = t.healthy_mean;
+    }
+    Refined fit = landscape.Fit(rest, start, rules.effort.passes, whole.evidence);
+    if (!fit.ok || fit.evidence < whole.evidence) {
+      ++i;
+      continue;
+    }
+    std::erase_if(found.candidates,
+                  [&](const Candidate& c) { return c.effect == found.causes[i].effect; });
+    found.causes = rest;
+    found.point = fit.point;
+    whole = std::move(fit);
+  }
+  if (found.causes.size() != 1) return;
+  const Refined null = landscape.Fit({}, found.WithoutCauses(), 1);
+  if (null.ok && whole.ok) RankNamed(landscape, whole.evidence - null.evidence, found);
+}
+
 void NameMovedCalibration(const RecordLandscape& landscape, const SelectionRules& rules,
                           CauseSelection& found) {
   const std::size_t before = found.causes.size();
   while (found.causes.size() < rules.most_causes && NameOne(landscape, rules, found)) {
   }
-  if (found.causes.size() > std::max<std::size_t>(before, 1)) {
-    DropNeedless(landscape, rules, found);
-  }
+  if (found.causes.size() > before + 1) DropNeedless(landscape, rules, before, found);
 }
 
 }  // namespace levitas::diagnosis

@@ -32,6 +32,11 @@ namespace levitas::diagnosis {
                                                    const std::vector<Hypothesis>& causes,
                                                    double tolerances);
 
+/// Without causes, from the index on, that evidence does not ask for beside those after them: a
+/// number that moved on the way to another one is back in its tolerance once that has a name.
+void DropNeedless(const RecordLandscape& landscape, const SelectionRules& rules, std::size_t from,
+                  CauseSelection& found);
+
 /// Adds such causes to those found, up to SelectionRules::most_causes in all.
 void NameMovedCalibration(const RecordLandscape& landscape, const SelectionRules& rules,
                           CauseSelection& found);

@@ -18,8 +18,8 @@ class Judge {
  public:
   Judge(const RecordLandscape& landscape, const std::vector<Record>& validation)
       : landscape_(landscape),
-        validation_(validation),
-        gains_(landscape.search().DesignGains(validation, kSpeeds[landscape.speed()])),
+        all_(DataOf(validation)),
+        part_(DataOf(Spans(validation, kFarRows, landscape.rig().period_s))),
         rows_(BlockRows(landscape.rig())) {}
 
   struct Forecast {
@@ -30,19 +30,23 @@ class Judge {
   [[nodiscard]] Forecast Of(const std::vector<Hypothesis>& causes, const Point& fit,
                             const std::vector<std::size_t>& movable) const {
     const Evidence fitted = landscape_.EvidenceGiven(causes);
-    State now = At(fit, movable, fitted.Unchanged());
     // What is not adapted yet is no noise: first the records are weighed by what is left of them.
+    State far = At(part_, fit, movable, fitted.Unchanged());
     for (int step = 0; step < kFarSteps; ++step) {
-      const Whitener own = landscape_.search().WhitenerOf(*now.forecast.runs, kWhiteningOrder);
-      if (!Downhill(fitted, fit, movable, own, now)) break;
+      const Whitener own = landscape_.search().WhitenerOf(*far.forecast.runs, kWhiteningOrder);
+      if (!Downhill(part_, fitted, fit, movable, own, far)) break;
     }
+    const Whitener& whitener = landscape_.view().whitener;
+    State now = At(all_, fit, movable, fitted.Unchanged());
+    State near = At(all_, fit, movable, far.adapted);
+    if (Squared(near.forecast, whitener) < Squared(now.forecast, whitener)) now = std::move(near);
     for (int step = 0; step < kNearSteps; ++step) {
-      if (!Downhill(fitted, fit, movable, landscape_.view().whitener, now)) break;
+      if (!Downhill(all_, fitted, fit, movable, whitener, now)) break;
     }
     return now.forecast;
   }
   /// As fitted: nothing adapts.
-  [[nodiscard]] Forecast Plain(const Point& fit) const { return {RunAt(fit), 0.0}; }
+  [[nodiscard]] Forecast Plain(const Point& fit) const { return {RunAt(all_, fit), 0.0}; }
   [[nodiscard]] FitGain Gain(const Forecast& first, const Forecast& second) const {
     FitGain gain = GainedFit(*first.runs, *second.runs, landscape_.view().whitener, rows_);
     gain.value += first.penalty - second.penalty;
@@ -50,13 +54,23 @@ class Judge {
   }
 
  private:
+  struct Data {
+    std::vector<Record> records;
+    Gains gains;
+  };
+  [[nodiscard]] Data DataOf(std::vector<Record> records) const {
+    Gains gains = landscape_.search().DesignGains(records, kSpeeds[landscape_.speed()]);
+    return {std::move(records), std::move(gains)};
+  }
+
   struct State {
     Forecast forecast;
     Evidence::Adapted adapted;
     Point point;
   };
   /// `movable` of the fit's numbers moved as they adapted.
-  [[nodiscard]] State At(const Point& fit, const std::vector<std::size_t>& movable,
+  [[nodiscard]] State At(const Data& data, const Point& fit,
+                         const std::vector<std::size_t>& movable,
                          const Evidence::Adapted& adapted) const {
     State state{{nullptr, adapted.penalty}, adapted, fit};
     for (const std::size_t i : movable) {
@@ -64,18 +78,18 @@ class Judge {
       const double moved = adapted.change[static_cast<Eigen::Index>(i)] * term.scale();
       state.point.theta[i] = std::max(fit.theta[i] + moved, LeastPossible(term));
     }
-    state.forecast.runs = RunAt(state.point);
+    state.forecast.runs = RunAt(data, state.point);
     return state;
   }
 
-  [[nodiscard]] Runs RunAt(const Point& point) const {
+  [[nodiscard]] Runs RunAt(const Data& data, const Point& point) const {
     return std::make_shared<const std::vector<Trajectory>>(
-        landscape_.search().Run(validation_, gains_, point));
+        landscape_.search().Run(data.records, data.gains, point));
   }
 
   /// Whether a step lowered the cost. A critical speed that moves bends more than a straight line:
   /// a step that overshoots is damped, or a set that needs to adapt would seem to foretell nothing.
-  [[nodiscard]] bool Downhill(const Evidence& fitted, const Point& fit,
+  [[nodiscard]] bool Downhill(const Data& data, const Evidence& fitted, const Point& fit,
                               const std::vector<std::size_t>& movable, const Whitener& whitener,
                               State& now) const {
     const View there =
@@ -84,10 +98,11 @@ class Judge {
     const double before = Squared(now.forecast, whitener);
     for (double damping = 0.0; damping < kMostDamping;
          damping = std::max(kLeastDamping, 10.0 * damping)) {
-      State tried = At(fit, movable, fitted.Adapt(there.sum, now.adapted, damping));
-      if (!(Squared(tried.forecast, whitener) < before - kConverged)) continue;
+      State tried = At(data, fit, movable, fitted.Adapt(there.sum, now.adapted, damping));
+      const double after = Squared(tried.forecast, whitener);
+      if (!(after < before)) continue;
       now = std::move(tried);
-      return true;
+      return after < before - kConverged;
     }
     return false;
   }
@@ -97,6 +112,7 @@ class Judge {
     return SquaredSum(*forecast.runs, landscape_.rig().axes, whitener) + forecast.penalty;
   }
 
+  static constexpr std::size_t kFarRows = 20'000;
   static constexpr int kFarSteps = 8;
   static constexpr int kNearSteps = 4;
   static constexpr double kLeastDamping = 0.1;
@@ -104,8 +120,7 @@ class Judge {
   static constexpr double kConverged = 3.0;
 
   const RecordLandscape& landscape_;
-  const std::vector<Record>& validation_;
-  Gains gains_;
+  Data all_, part_;
   std::size_t rows_;
 };
 
@@ -185,8 +200,8 @@ void JudgeOnValidation(RecordLandscape& landscape, const std::vector<Record>& va
   found.doubt = DoubtOf(worth.value, worth.deviation, deviations);
   if (found.doubt == Doubt::kUnconfirmed) {
     // A wrong calibration may adapt as far as it must; what was foretold without that counts, too.
-    const FitGain plain = judge.Gain(judge.Plain(PointWithoutCauses(landscape, found)),
-                                     judge.Plain(found.point));
+    const FitGain plain =
+        judge.Gain(judge.Plain(PointWithoutCauses(landscape, found)), judge.Plain(found.point));
     if (Confirms(plain.value, plain.deviation, deviations)) found.doubt = Doubt::kNothing;
   }
   if (found.doubt == Doubt::kValidationHarm) {

@@ -173,7 +173,7 @@ std::string ActionOfCauses(const DiagnosisReport& report) {
     if (words == nullptr) continue;
     const std::string stop = StopText(*words, SeverityOf(report, cause).severity, certain);
     if (text.find(stop) == std::string::npos) text += stop;
-    text += fmt::format("{} ", words->check);
+    if (text.find(words->check) == std::string::npos) text += fmt::format("{} ", words->check);
   }
   for (const std::string& other : report.also_possible) {
     const Words* words = FindWords(report, other);
@@ -238,7 +238,9 @@ std::string CauseLine(const DiagnosisReport& report, const ReportCause& cause) {
 std::string HeadlineOfCauses(const DiagnosisReport& report) {
   std::string text = CauseLine(report, report.causes.front());
   for (std::size_t i = 1; i < report.causes.size(); ++i) {
-    text += "; and " + CauseLine(report, report.causes[i]);
+    // The line of an effect says all its places: one that is a cause at two stands there once.
+    const std::string line = CauseLine(report, report.causes[i]);
+    if (text.find(line) == std::string::npos) text += "; and " + line;
   }
   const std::string percent = PercentText(report.confidence);
   if (ForetellsWorse(report)) {
@@ -369,6 +371,7 @@ void Advise(DiagnosisReport& report) {
   for (const ReportCause& cause : report.causes) {
     const Judged judged = SeverityOf(report, cause);
     report.severity = Worse(report.severity, judged.severity);
+    if (report.severity_sentence.find(judged.sentence) != std::string::npos) continue;
     if (!report.severity_sentence.empty()) report.severity_sentence += " ";
     report.severity_sentence += judged.sentence;
   }

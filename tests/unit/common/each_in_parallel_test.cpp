@@ -70,5 +70,22 @@ TEST_F(Threads, ToldAsNoNumberAreRefusedInOneSentence) {
   }
 }
 
+TEST_F(Threads, ThatFailEndTheWorkOfNoOther) {
+  for (const char* threads : {"1", "3"}) {
+    Tell(threads);
+    std::vector<int> done(6, 0);
+    try {
+      EachThatMayFail(done.size(), [&done](std::size_t i) {
+        if (i == 2 || i == 4) throw BadInput("of " + std::to_string(i));
+        done[i] = 1;
+      });
+      FAIL() << threads;
+    } catch (const BadInput& problem) {
+      EXPECT_STREQ(problem.what(), "of 2") << "of the lowest index";
+    }
+    EXPECT_EQ(done, (std::vector<int>{1, 1, 0, 1, 0, 1}));
+  }
+}
+
 }  // namespace
 }  // namespace levitas

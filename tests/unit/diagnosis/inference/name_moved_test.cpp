@@ -91,5 +91,32 @@ TEST(NameMovedCalibration, LeavesWhatACauseMoves) {
   EXPECT_EQ(found.causes.size(), 1U);
 }
 
+// A hum that is not in the records, named before the offset that is.
+TEST(DropNeedless, LeavesTheCauseThatTheDataAskForAndRanksIt) {
+  const RestLandscape& rest = FourTolerances();
+  CauseSelection found = rest.Calibrated();
+  found.causes = {rest.Of(Id::kMainsPickup, kHumPlace), rest.Of(Id::kSensorOffset, "de_x")};
+  found.point = rest.landscape.SolutionOf(found.causes);
+  found.candidates = {rest.CandidateOf(Id::kMainsPickup, kHumPlace, 9.0)};
+  CauseSelection older = found;
+  DropNeedless(rest.landscape, NamingRules(), 0, found);
+  ASSERT_EQ(found.causes.size(), 1U);
+  EXPECT_EQ(found.causes.front().place, "de_x");
+  ASSERT_EQ(found.candidates.size(), 1U);
+  EXPECT_EQ(found.candidates.front().effect, Id::kSensorOffset);
+  EXPECT_NEAR(found.candidates.front().score, GainOfOffset(4.0 * kOffsetTolerance), 0.3);
+  DropNeedless(rest.landscape, NamingRules(), 1, older);
+  EXPECT_EQ(older.causes.size(), 2U) << "a cause found before is not asked";
+}
+
+TEST(DropNeedless, KeepsWhatTheDataAskFor) {
+  const RestLandscape& rest = FourTolerances();
+  CauseSelection found = rest.Calibrated();
+  found.causes = {rest.Of(Id::kSensorOffset, "de_x"), rest.Of(Id::kMainsPickup, kHumPlace)};
+  found.point = rest.landscape.SolutionOf(found.causes);
+  DropNeedless(rest.landscape, NamingRules(), 0, found);
+  EXPECT_EQ(found.causes.size(), 2U);
+}
+
 }  // namespace
 }  // namespace levitas::diagnosis

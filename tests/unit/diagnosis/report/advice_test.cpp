@@ -130,6 +130,17 @@ TEST(Action, StopsTheMachineForACrackAndNotForALateCurrent) {
               HasSubstr("may run on"));
 }
 
+// A ring at either bearing is a cause each, of one line.
+TEST(Headline, SaysAnEffectAtTwoPlacesOnce) {
+  DiagnosisReport report = BuildReport(Found(effect::Id::kTouchdownRub, RubPlace()));
+  const DiagnosisReport one = report;
+  report.causes.push_back(report.causes.front());
+  Advise(report);
+  EXPECT_EQ(report.headline, one.headline);
+  EXPECT_EQ(report.action, one.action);
+  EXPECT_EQ(report.severity_sentence, one.severity_sentence);
+}
+
 TEST(Headline, DoesNotSuspectWhatForetellsTheRecordsWorseThanTheRigFile) {
   DiagnosisReport report = BuildReport(Found(effect::Id::kExtraDelay, "all axes"));
   report.verdict = Verdict::kSuspected;
