@@ -59,6 +59,17 @@ TEST(Adapt, MovesWhatIsOpenAndHoldsWhatIsKnown) {
   EXPECT_NEAR(adapted.penalty, 10'001.0 * first * first + second * second, 1e-9);
 }
 
+// The diagonal a thousand times as large: a thousandth of the step, in the same direction here.
+TEST(Adapt, StepsShorterWithDamping) {
+  const TwoNumbers numbers(0.01);
+  const Evidence fitted(numbers.problem, numbers.terms, {});
+  const auto whole = fitted.Adapt(Wanting(1.0, 0.1), fitted.Unchanged());
+  const auto damped = fitted.Adapt(Wanting(1.0, 0.1), fitted.Unchanged(), 999.0);
+  EXPECT_NEAR(damped.change[0], 1e-3 * whole.change[0], 1e-12);
+  EXPECT_NEAR(damped.change[1], 1e-3 * whole.change[1], 1e-12);
+  EXPECT_NEAR(damped.penalty, 1e-6 * whole.penalty, 1e-12);
+}
+
 TEST(Adapt, StaysWhereItIsOnceItHasArrived) {
   const TwoNumbers numbers(0.5);
   const Evidence fitted(numbers.problem, numbers.terms, {});
