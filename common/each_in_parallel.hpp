@@ -36,9 +36,9 @@ void EachInParallel(std::size_t count, std::size_t threads, const Work& work) {
 
 /// The same; what the work of the lowest index throws is thrown when all is done.
 template <class Work>
-void EachThatMayFail(std::size_t count, const Work& work) {
+void EachThatMayFail(std::size_t count, std::size_t threads, const Work& work) {
   std::vector<std::exception_ptr> failures(count);
-  EachInParallel(count, 0, [&](std::size_t i) {
+  EachInParallel(count, threads, [&](std::size_t i) {
     try {
       work(i);
     } catch (...) {

@@ -25,7 +25,7 @@ namespace {
 
 std::vector<Record> Load(const std::vector<std::string>& paths, const DiagnosisRequest& inputs) {
   std::vector<Record> records(paths.size());
-  EachThatMayFail(paths.size(),
+  EachThatMayFail(paths.size(), 0,
                   [&](std::size_t i) { records[i] = LoadRecord(paths[i], inputs.rig); });
   return records;
 }

@@ -204,6 +204,7 @@ SearchResult Diagnose(const RigView& rig, const std::vector<Record>& records,
   DropUngained(landscape, rules.judging, found);
   NameMovedCalibration(landscape, rules, found);
   JudgeOnValidation(landscape, validation, rules.judging, found);
+  DoubtCutOffChain(landscape, rules, found);
   SuspectCause(landscape, rules.judging, found);
   return Conclude(landscape, records, rules, found);
 }

@@ -8,10 +8,13 @@
 #include <utility>
 
 #include "diagnosis/inference/ranking.hpp"
+#include "diagnosis/inference/suspicion.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
 namespace {
+
+constexpr double kShareAtTheEnd = 0.88;  ///< of the whole diagnosis
 
 /// Least gain of a further cause, given the evidence explained already.
 double Enough(const Judging& judging, double explained_nat) {
@@ -209,6 +212,19 @@ void DropUnproven(const EvidenceLandscape& landscape, const SelectionRules& rule
     found.causes = Without(found.causes, weakest);
     found.point = found.causes.empty() ? found.WithoutCauses() : landscape.SolutionOf(found.causes);
   }
+}
+
+void DoubtCutOffChain(const EvidenceLandscape& landscape, const SelectionRules& rules,
+                      CauseSelection& found) {
+  if (found.doubt != Doubt::kNothing || found.causes.size() < 2 ||
+      found.causes.size() < rules.most_causes)
+    return;
+  CauseSelection more = found;
+  if (!AddCause(landscape, rules, kShareAtTheEnd, more) ||
+      more.causes.size() <= found.causes.size())
+    return;
+  found.doubt = Doubt::kCutOff;
+  found.probability = ProbabilityOfLeader(found.candidates, rules.judging.decisive_nat);
 }
 
 }  // namespace levitas::diagnosis

@@ -33,6 +33,7 @@ enum class Doubt {
   kMovedNumber,     ///< a calibrated number is outside its tolerance by more than chance
   kUnconfirmed,     ///< decisive there, and the user's validation data leave it open
   kValidationHarm,  ///< decisive on the fitted records, refuted by the user's validation data
+  kCutOff,          ///< as many causes as a search may have, and a further one would gain
   kResidualIsLeft,  ///< far ahead of all others, but a residual is left that it does not explain
 };
 

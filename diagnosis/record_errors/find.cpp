@@ -118,7 +118,7 @@ RecordErrors FindRecordErrors(const RigView& rig, const Record& record,
 std::vector<RecordErrors> FindErrorsOfRecords(const RigView& rig,
                                               const std::vector<Record>& records) {
   std::vector<RecordErrors> found(records.size());
-  EachThatMayFail(records.size(),
+  EachThatMayFail(records.size(), 0,
                   [&](std::size_t i) { found[i] = FindRecordErrors(rig, records[i], {}); });
   const ColumnUses right;
   const auto shown = std::ranges::find_if(found, [&](const RecordErrors& errors) {

@@ -181,6 +181,9 @@ std::string SuspicionSentence(const DiagnosisReport& report) {
           "Its {:.0f} nat on the fitted data are decisive, but the validation data refute it: "
           "there the calibrated model foretells more without it.",
           OwnEvidence(report));
+    case Doubt::kCutOff:
+      return "As many causes as one answer may have are named, and a further one would still gain: "
+             "a chain of causes imitates what is in no vocabulary.";
     case Doubt::kResidualIsLeft:
       return fmt::format(
           "It is {:.0f} nat ahead of a rig without it and of every other effect, but it does not "
@@ -238,7 +241,8 @@ std::string SeparatingExperiment(const DiagnosisReport& report) {
     if (!missing.empty()) return missing;
     return Confidence(report) < kUndecided ? kToDecide : kNoneNeeded;
   }
-  if (report.verdict == Verdict::kUnknown || report.doubt == Doubt::kResidualIsLeft) {
+  if (report.verdict == Verdict::kUnknown || report.doubt == Doubt::kResidualIsLeft ||
+      report.doubt == Doubt::kCutOff) {
     return "the same with another speed and another bias current: the change of the residual "
            "shows whether it belongs to the rotation, the magnets or neither";
   }

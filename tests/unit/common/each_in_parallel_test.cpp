@@ -75,7 +75,7 @@ TEST_F(Threads, ThatFailEndTheWorkOfNoOther) {
     Tell(threads);
     std::vector<int> done(6, 0);
     try {
-      EachThatMayFail(done.size(), [&done](std::size_t i) {
+      EachThatMayFail(done.size(), 0, [&done](std::size_t i) {
         if (i == 2 || i == 4) throw BadInput("of " + std::to_string(i));
         done[i] = 1;
       });

@@ -137,5 +137,38 @@ TEST(DropUnprovenOfThree, LeavesOneOfTwoThatStandForEachOther) {
               1e-9);
 }
 
+// Two causes of 47 nat are named; a third is worth 47 or, of 2 - 3 nat, nothing.
+TEST(DoubtCutOffChain, DoubtsAFullChainThatAnotherCauseWouldLengthen) {
+  for (const auto& [third, most, doubt] :
+       {std::tuple{10.0, 2U, Doubt::kCutOff}, std::tuple{2.0, 2U, Doubt::kNothing},
+        std::tuple{10.0, 3U, Doubt::kNothing}}) {
+    ToyLandscape toy({10.0, 10.0, third});
+    const Hypothesis first = toy.Add(Id::kUnbalance, {1.0, 0.0, 0.0});
+    const Hypothesis second = toy.Add(Id::kShaftBow, {0.0, 1.0, 0.0});
+    toy.Add(Id::kStaticLoad, {0.0, 0.0, 1.0});
+    SelectionRules rules = ThoroughRules();
+    rules.most_causes = most;
+    CauseSelection found = toy.Found({first, second});
+    DoubtCutOffChain(toy, rules, found);
+    EXPECT_EQ(found.doubt, doubt) << third << " " << most;
+    EXPECT_EQ(found.causes.size(), 2U) << "none is added or dropped";
+  }
+}
+
+TEST(DoubtCutOffChain, LeavesOneCauseAndAnEarlierDoubt) {
+  ToyLandscape toy({10.0, 10.0});
+  const Hypothesis first = toy.Add(Id::kUnbalance, {1.0, 0.0});
+  toy.Add(Id::kShaftBow, {0.0, 1.0});
+  SelectionRules rules = ThoroughRules();
+  rules.most_causes = 1;
+  CauseSelection found = toy.Found({first});
+  DoubtCutOffChain(toy, rules, found);
+  EXPECT_EQ(found.doubt, Doubt::kNothing);
+  found.causes.push_back(first);
+  found.doubt = Doubt::kValidationHarm;
+  DoubtCutOffChain(toy, rules, found);
+  EXPECT_EQ(found.doubt, Doubt::kValidationHarm);
+}
+
 }  // namespace
 }  // namespace levitas::diagnosis

@@ -36,6 +36,7 @@ TEST(SuspectedTest, SaysWhyAndHowLikely) {
               HasSubstr("validation data do not confirm it"));
   EXPECT_THAT(Suspected(Doubt::kMovedNumber, 0.98).verdict_sentence,
               HasSubstr("all but 2 % of healthy rigs"));
+  EXPECT_THAT(Suspected(Doubt::kCutOff, 0.9).verdict_sentence, HasSubstr("a chain of causes"));
   EXPECT_THAT(Suspected(Doubt::kResidualIsLeft, 0.99).verdict_sentence,
               HasSubstr("a residual is left"));
 }
