@@ -128,8 +128,8 @@ void AddBenchCommand(CLI::App& app, Action& action) {
   command->add_flag("--quick", options->quick, "A first answer instead of the complete ranking");
   command->add_flag("--shipped", options->shipped,
                     "The rig file as it is, instead of rotor, magnets and noise drawn by seed");
-  command->add_flag("--held-out", options->held_out,
-                    "The run-up is not fitted: it judges, as --holdout of amb diagnose");
+  command->add_flag("--runup-validates", options->runup_validates,
+                    "The run-up is not fitted: it is validation data, as of --holdout");
   command->add_flag("--in-file", options->in_file,
                     "Give the diagnosis rig files that hold the effects: right is none");
   command

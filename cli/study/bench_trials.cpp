@@ -66,16 +66,17 @@ void ListMissed(const accuracy::Trial& trial, accuracy::TrialScore& outcome) {
   }
 }
 
-/// All records of a trial are fitted, or the last one judges.
+/// All records of a trial are fitted, or the last one is validation data.
 diagnosis::DiagnosisReport Report(const accuracy::Trial& trial, const BenchOptions& options,
                                   const diagnosis::Settings& settings) {
   std::vector<diagnosis::Record> fitted = trial.records;
-  std::vector<diagnosis::Record> judging;
-  if (options.held_out) {
-    judging.push_back(std::move(fitted.back()));
+  std::vector<diagnosis::Record> validation;
+  if (options.runup_validates) {
+    validation.push_back(std::move(fitted.back()));
     fitted.pop_back();
   }
-  return diagnosis::BuildReport(diagnosis::DiagnoseRecords(trial.rig, fitted, judging, settings));
+  return diagnosis::BuildReport(
+      diagnosis::DiagnoseRecords(trial.rig, fitted, validation, settings));
 }
 
 accuracy::TrialScore Try(const accuracy::TrialPlan& plan, const accuracy::TestRig& bench,

@@ -25,8 +25,8 @@ struct BenchOptions {
   std::uint64_t first{1000};
   int seeds{0}, clean{0}, outside{0}, pairs{0}, weak{0}, spoilt{0}, forecast{0};
   bool quick{}, explain{}, in_file{};
-  bool held_out{};  ///< the run-up is not fitted but judges, as --holdout of a user
-  bool shipped{};   ///< the rig file as it is; else rotor, magnets and noise are drawn by seed
+  bool runup_validates{};  ///< not fitted, as --holdout of a user
+  bool shipped{};  ///< the rig file as it is; else rotor, magnets and noise are drawn by seed
   std::size_t jobs{1};
   int bits{2047};  ///< of the test signal, per axis; the run-up is as much shorter
   std::string json_path, markdown_path, write_folder;

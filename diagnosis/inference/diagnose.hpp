@@ -15,8 +15,8 @@
 //            5 no cause stays unless all together fit better than chance would (fit_gain.hpp);
 //              what calibration had to move too far is tried as one (moved_calibration.hpp);
 //            6 judge causes by the user's validation data (validation.hpp); doubt a chain that had
-//              to be cut off (selection_steps.hpp); without a cause, look for one that is likely all
-//              the same (suspicion.hpp);
+//              to be cut off (selection_steps.hpp); without a cause, look for one that is likely
+//              all the same (suspicion.hpp);
 //            7 analyse the residual (residual.hpp).
 // Divergence a model that diverges is held by a faster observer until the causes found make that
 //            unnecessary (divergence.hpp).

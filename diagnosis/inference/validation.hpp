@@ -8,8 +8,8 @@
 //            may make any forecast wrong by more than a cause is worth. So each set first adapts
 //            its numbers to the validation data within what the fitted ones leave of them, at the
 //            price of that prior; what it still gets wrong counts.
-//            Gauss-Newton steps with Marquardt's damping, the first of them with the records weighed
-//            by what is left of them, as a calibration from afar goes (refine.hpp).
+//            Gauss-Newton steps with Marquardt's damping, the first of them with the records
+//            weighed by what is left of them, as a calibration from afar goes (refine.hpp).
 // Contender  a set of causes whose evidence comes within `form_share` of the leader's: no force law
 //            of the vocabulary is more exact than that.
 // Chosen     the contender that foretells the validation data better than the leader, in squared
@@ -21,8 +21,8 @@
 // Refuted    a set that loses there by more than `gain_deviations` of the scatter: it is suspected,
 //            not named. So is one that they leave open, though they could show it
 //            (validation_doubt.hpp), unless it foretells them better as it was fitted, with nothing
-//            adapted: a wrong calibration can adapt to much. Data that cannot (no test signal, for a delay) neither confirm
-//            nor refute it.
+//            adapted: a wrong calibration can adapt to much. Data that cannot (no test signal, for a
+//            delay) neither confirm nor refute it.
 // Without    validation data of the user contenders are ties (ranking.hpp), and nothing is doubted.
 // Thread     Choose: any; pure. The rest blocks the caller, two threads inside.
 
