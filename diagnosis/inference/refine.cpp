@@ -262,7 +262,7 @@ Refined Refiner::Approach(Point start, std::size_t whitening_order, int passes,
                           const std::vector<Hypothesis>& causes) const {
   constexpr double kConverged = 1.0;  // [nat]
   constexpr double kFar = 100.0;      // [nat] a step that gains more has left its linearisation
-  constexpr double kWorthOne = 5.0;   // [nat] of misfit that a Jacobian must take away
+  constexpr double kWorthOne = 1.0;   // [nat] of misfit that a Jacobian must take away
   Descent d;
   d.at = std::move(start);
   for (int pass = 0; pass < passes;) {
