@@ -20,9 +20,9 @@
 //            worth what calibration gained by it.
 // Refuted    a set that loses there by more than `gain_deviations` of the scatter: it is suspected,
 //            not named. So is one that they leave open, though they could show it
-//            (validation_doubt.hpp), unless it foretells them better as it was fitted, with nothing
-//            adapted: a wrong calibration can adapt to much. Data that cannot (no test signal, for a
-//            delay) neither confirm nor refute it.
+//            (validation_doubt.hpp), unless it foretells them better as it was fitted: a wrong
+//            calibration can adapt to much. Data that cannot (no test signal, for a delay) neither
+//            confirm nor refute it.
 // Without    validation data of the user contenders are ties (ranking.hpp), and nothing is doubted.
 // Thread     Choose: any; pure. The rest blocks the caller, two threads inside.
 
