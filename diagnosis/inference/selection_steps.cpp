@@ -219,8 +219,11 @@ void DoubtCutOffChain(const EvidenceLandscape& landscape, const SelectionRules& 
   if (found.doubt != Doubt::kNothing || found.causes.size() < 2 ||
       found.causes.size() < rules.most_causes)
     return;
+  // What an inexact law leaves does not excuse a full chain: any decisive gain counts.
+  SelectionRules strict = rules;
+  strict.judging.form_share = 0.0;
   CauseSelection more = found;
-  if (!AddCause(landscape, rules, kShareAtTheEnd, more) ||
+  if (!AddCause(landscape, strict, kShareAtTheEnd, more) ||
       more.causes.size() <= found.causes.size())
     return;
   found.doubt = Doubt::kCutOff;

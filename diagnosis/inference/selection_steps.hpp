@@ -25,7 +25,7 @@ void MergeCauses(EvidenceLandscape& landscape, const SelectionRules& rules, Caus
 void DropUnproven(const EvidenceLandscape& landscape, const SelectionRules& rules,
                   CauseSelection& found);
 
-/// Doubts several causes that are as many as there may be where a further one would gain enough: a
+/// Doubts several causes that are as many as there may be where a further one would be decisive: a
 /// chain imitates what is not in the vocabulary.
 void DoubtCutOffChain(const EvidenceLandscape& landscape, const SelectionRules& rules,
                       CauseSelection& found);
