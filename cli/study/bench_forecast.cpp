@@ -10,7 +10,6 @@
 #include "cli/study/bench_workers.hpp"
 #include "common/problem.hpp"
 #include "diagnosis/diagnose/diagnose_files.hpp"
-#include "diagnosis/report/build_report.hpp"
 #include "report/diagnosis/diagnosis_files.hpp"
 
 namespace levitas::cli {
@@ -37,12 +36,10 @@ diagnosis::DiagnosisReport TryForecast(const BenchOptions& options, const accura
   plan.runup_s = kForecastRunUpS;
   const accuracy::Trial trial =
       options.shipped ? accuracy::MakeTrial(bench, plan) : accuracy::MakeDrawnTrial(bench, plan);
-  const std::vector<diagnosis::Record> fitted(trial.records.begin(), trial.records.end() - 1);
-  const std::vector<diagnosis::Record> runup(trial.records.end() - 1, trial.records.end());
   diagnosis::Settings settings;
   settings.quick = options.quick;
   settings.judging = options.judging;
-  return diagnosis::BuildReport(diagnosis::DiagnoseRecords(trial.rig, fitted, runup, settings));
+  return DiagnoseTrial(trial, settings, true);
 }
 
 void PrintBands(const diagnosis::ReportForecast& forecast) {

@@ -15,7 +15,6 @@
 #include "common/problem.hpp"
 #include "diagnosis/isolability/foretell.hpp"
 #include "diagnosis/records/levitated_interval.hpp"
-#include "diagnosis/report/build_report.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::cli {
@@ -90,8 +89,7 @@ Answer Diagnosed(const accuracy::TrialPlan& plan, const accuracy::Trial& trial,
   diagnosis::Settings settings;
   settings.quick = options.quick;
   settings.judging = options.judging;
-  const auto report =
-      diagnosis::BuildReport(diagnosis::DiagnoseRecords(trial.rig, trial.records, {}, settings));
+  const auto report = DiagnoseTrial(trial, settings, false);
   const accuracy::TrialScore score = accuracy::Judge(plan, trial.ground_truth, report);
   return {score.truth, score.named, score.ties, score.verdict};
 }

@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <mutex>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "benchmark/accuracy/available_evidence.hpp"
 #include "benchmark/accuracy/drawn_rig.hpp"
@@ -66,19 +65,6 @@ void ListMissed(const accuracy::Trial& trial, accuracy::TrialScore& outcome) {
   }
 }
 
-/// All records of a trial are fitted, or the last one is validation data.
-diagnosis::DiagnosisReport Report(const accuracy::Trial& trial, const BenchOptions& options,
-                                  const diagnosis::Settings& settings) {
-  std::vector<diagnosis::Record> fitted = trial.records;
-  std::vector<diagnosis::Record> validation;
-  if (options.runup_validates) {
-    validation.push_back(std::move(fitted.back()));
-    fitted.pop_back();
-  }
-  return diagnosis::BuildReport(
-      diagnosis::DiagnoseRecords(trial.rig, fitted, validation, settings));
-}
-
 accuracy::TrialScore Try(const accuracy::TrialPlan& plan, const accuracy::TestRig& bench,
                          const BenchOptions& options) {
   const accuracy::Trial trial =
@@ -88,14 +74,14 @@ accuracy::TrialScore Try(const accuracy::TrialPlan& plan, const accuracy::TestRi
   settings.quick = options.quick;
   settings.judging = options.judging;
   const auto start = std::chrono::steady_clock::now();
-  const diagnosis::DiagnosisReport report = Report(trial, options, settings);
+  const diagnosis::DiagnosisReport report = DiagnoseTrial(trial, settings, options.runup_validates);
   accuracy::TrialScore outcome = accuracy::Judge(plan, trial.ground_truth, report);
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (outcome.truth.size() > 1 && plan.side_size == 1.0) ListMissed(trial, outcome);
   if (!outcome.truth.empty() && !outcome.Right()) {
     // What the records hold for an effect that was not named is found by being told of it.
     settings.only = outcome.truth.front();
-    const auto informed = Report(trial, options, settings);
+    const auto informed = DiagnoseTrial(trial, settings, options.runup_validates);
     const bool known =
         !outcome.missed.empty() && outcome.missed.front().first == outcome.truth.front();
     accuracy::AddInformedDiagnosis(
@@ -140,6 +126,16 @@ void Explain(const accuracy::TrialScore& o) {
 }
 
 }  // namespace
+
+diagnosis::DiagnosisReport DiagnoseTrial(const accuracy::Trial& trial,
+                                         const diagnosis::Settings& settings,
+                                         bool runup_validates) {
+  const auto judging = trial.records.end() - (runup_validates ? 1 : 0);
+  const std::vector<diagnosis::Record> fitted(trial.records.begin(), judging);
+  const std::vector<diagnosis::Record> validation(judging, trial.records.end());
+  return diagnosis::BuildReport(
+      diagnosis::DiagnoseRecords(trial.rig, fitted, validation, settings));
+}
 
 std::vector<accuracy::TrialPlan> Plans(const BenchOptions& options,
                                        const accuracy::TestRig& bench) {

@@ -37,6 +37,11 @@ struct BenchOptions {
   diagnosis::Judging judging;
 };
 
+/// All records of a trial are fitted, or the last one, its run-up, is validation data.
+[[nodiscard]] diagnosis::DiagnosisReport DiagnoseTrial(const accuracy::Trial& trial,
+                                                       const diagnosis::Settings& settings,
+                                                       bool runup_validates);
+
 /// The trials that the options ask for, in the order of their seeds.
 [[nodiscard]] std::vector<accuracy::TrialPlan> Plans(const BenchOptions& options,
                                                      const accuracy::TestRig& bench);

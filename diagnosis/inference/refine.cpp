@@ -262,7 +262,6 @@ Refined Refiner::Approach(Point start, std::size_t whitening_order, int passes,
                           const std::vector<Hypothesis>& causes) const {
   constexpr double kConverged = 1.0;  // [nat]
   constexpr double kFar = 100.0;      // [nat] a step that gains more has left its linearisation
-  constexpr double kWorthOne = 1.0;   // [nat] of misfit that a Jacobian must take away
   Descent d;
   d.at = std::move(start);
   for (int pass = 0; pass < passes;) {
@@ -285,9 +284,9 @@ Refined Refiner::Approach(Point start, std::size_t whitening_order, int passes,
     d.best.point = d.at;
     d.best.ok = true;
     d.refused = 0;
-    // The filter follows the fit, which may creep by a nat for ever where the model lacks a cause:
-    // a Jacobian that hardly lowered the misfit is not followed by another one.
-    const bool settled = d.current || !(d.misfit < d.misfit_at_jacobian - kWorthOne);
+    // The filter follows the fit, so that a step may gain by one filter what the next one takes
+    // back: a Jacobian that has not lowered the misfit is not followed by another one.
+    const bool settled = d.current || !(d.misfit < d.misfit_at_jacobian - kConverged);
     if (gained < kConverged && settled) break;
     d.current = !d.slopes || gained > kFar || gained < kConverged;
     StepOn(search_, terms_, causes, runs, d);

@@ -30,7 +30,9 @@ class Judge {
   [[nodiscard]] Forecast Of(const std::vector<Hypothesis>& causes, const Point& fit,
                             const std::vector<std::size_t>& movable) const {
     const Evidence fitted = landscape_.EvidenceGiven(causes);
-    // What is not adapted yet is no noise: first the records are weighed by what is left of them.
+    // Far from the optimum the innovations are mostly what is not adapted yet. The filter of the
+    // fit would take them for a hundred deviations of noise, so the first steps have filters of
+    // these innovations themselves.
     State far = At(part_, fit, movable, fitted.Unchanged());
     for (int step = 0; step < kFarSteps; ++step) {
       const Whitener own = landscape_.search().WhitenerOf(*far.forecast.runs, kWhiteningOrder);

@@ -8,8 +8,8 @@
 //            may make any forecast wrong by more than a cause is worth. So each set first adapts
 //            its numbers to the validation data within what the fitted ones leave of them, at the
 //            price of that prior; what it still gets wrong counts.
-//            Gauss-Newton steps with Marquardt's damping, the first of them with the records
-//            weighed by what is left of them, as a calibration from afar goes (refine.hpp).
+//            Gauss-Newton steps with Marquardt's damping, the first of them with a
+//            whitening filter of the innovations at each step, as Refiner::Approach does.
 // Contender  a set of causes whose evidence comes within `form_share` of the leader's: no force law
 //            of the vocabulary is more exact than that.
 // Chosen     the contender that foretells the validation data better than the leader, in squared
