@@ -5,6 +5,7 @@
 #include "diagnosis/inference/exchange.hpp"
 #include "diagnosis/inference/find_causes.hpp"
 #include "diagnosis/inference/fit_gain.hpp"
+#include "diagnosis/inference/grade.hpp"
 #include "diagnosis/inference/moved_calibration.hpp"
 #include "diagnosis/inference/ranking.hpp"
 #include "diagnosis/inference/selection_steps.hpp"
@@ -14,12 +15,6 @@
 
 namespace levitas::diagnosis {
 namespace {
-
-bool IsUnexplained(const Judging& judging, const Residual& residual, bool named, double explained) {
-  if (!(residual.sigma > judging.unexplained_sigma)) return false;
-  const bool stands_out = residual.sigma > judging.stands_out_sigma;
-  return !named || explained < (stands_out ? judging.nearly_all_share : judging.explained_share);
-}
 
 constexpr Effort kQuick{5, 3, 3, 2, kQuickRows, true};
 constexpr Effort kThorough{40, 6, 8, 5, kMostRows, false};
@@ -80,29 +75,6 @@ void AddEvents(const RecordLandscape& landscape, const std::vector<Record>& all_
   SortByScore(found.candidates);
 }
 
-/// A cause far ahead of all others, though it leaves a residual. Not of a chain that the search had
-/// to cut off: as many causes as it may have imitate what is not in the vocabulary.
-bool LeadsFar(const SelectionRules& rules, const CauseSelection& found) {
-  if (found.causes.size() >= rules.most_causes && rules.most_causes > 1) return false;
-  const auto& all = found.candidates;
-  if (found.causes.empty() || all.empty() || all.front().effect != found.causes.front().effect)
-    return false;
-  const double suspected = rules.judging.suspected_nat;
-  const double next = all.size() > 1 ? all[1].score : 0.0;
-  return all.front().refitted && all.front().score - std::max(0.0, next) > suspected;
-}
-
-Verdict VerdictOf(const SelectionRules& rules, bool unexplained, CauseSelection& found) {
-  if (unexplained) {
-    if (!LeadsFar(rules, found)) return Verdict::kUnknown;
-    found.doubt = Doubt::kResidualIsLeft;
-    found.probability = ProbabilityOfLeader(found.candidates, rules.judging.decisive_nat);
-    return Verdict::kSuspected;
-  }
-  if (found.causes.empty()) return Verdict::kNone;
-  return found.doubt == Doubt::kNothing ? Verdict::kEffect : Verdict::kSuspected;
-}
-
 /// Of all fitted numbers, before an unknown verdict forgets the causes that the point holds.
 Eigen::MatrixXd SpreadOf(const RecordLandscape& landscape, const std::vector<Hypothesis>& causes) {
   Eigen::MatrixXd spread = landscape.EvidenceGiven(causes).Spread();
@@ -150,10 +122,8 @@ SearchResult Conclude(const RecordLandscape& landscape, const std::vector<Record
     throw BadInput(why);
   answer.explained =
       Explained(AnalyseResidual(landscape.rig(), *found.calibrated_runs), answer.residual);
-  const bool unexplained =
-      IsUnexplained(judging, answer.residual, !found.causes.empty(), answer.explained);
   answer.spread = SpreadOf(landscape, found.causes);
-  const Verdict verdict = VerdictOf(rules, unexplained, found);
+  const Verdict verdict = GradeOf(rules, {answer.residual.sigma, answer.explained}, found);
   if (verdict == Verdict::kUnknown) found.causes.clear();
   const std::size_t named = found.causes.size();
   AddEvents(landscape, all_records, judging, answer.residual, found);
