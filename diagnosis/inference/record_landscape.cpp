@@ -94,7 +94,8 @@ Refined RecordLandscape::Refit(const Causes& set, double worth) const {
 Refined RecordLandscape::RefineShapeOf(const Causes& set, std::size_t at, Refined fit,
                                        double worth) const {
   if (!HasShape(set[at])) return fit;
-  return RefineShape(refiner_, set[at], set, view_, passes_, std::move(fit), terms_, worth);
+  const RefinerMemberFits fits(refiner_, set, view_, passes_);
+  return RefineShape(fits, set[at], std::move(fit), terms_, worth);
 }
 
 bool RecordLandscape::HasShape(const Hypothesis& cause) const { return HasFamily(cause, terms_); }
