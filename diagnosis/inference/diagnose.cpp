@@ -35,8 +35,7 @@ void Calibrate(RecordLandscape& landscape, const std::vector<Record>& all_record
           "units and signs of currents and positions right?");
     }
     found.point = found.calibrated = fit.point;
-    if (fastest || (fit.ok && !ModelDiverges(landscape.rig(), landscape.RunAt(found.point))))
-      return;
+    if (fastest || (fit.ok && !landscape.ModelDivergesAt(found.point))) return;
     landscape.ReportProgress(0.02, "calibrating with a faster observer");
   }
 }

@@ -1,6 +1,5 @@
 #include "diagnosis/inference/find_causes.hpp"
 
-#include <memory>
 #include <utility>
 
 #include "diagnosis/inference/coloured.hpp"
@@ -13,27 +12,23 @@
 namespace levitas::diagnosis {
 namespace {
 
-Runs CalibratedRuns(const RecordLandscape& landscape, const CauseSelection& found) {
-  return std::make_shared<const std::vector<Trajectory>>(landscape.RunAt(found.calibrated));
-}
-
 /// Whether the model is farther from the readings than under the faster observer: one that has the
 /// causes is as near, for it follows by itself.
-bool FallsBehind(const RecordLandscape& landscape, const Point& point, const Whitener& faster) {
+bool FallsBehind(const ObservedLandscape& landscape, const Point& point, const Whitener& faster) {
   constexpr double kTimes = 1.5;
-  return TakesAway(faster, landscape.search().WhitenerOf(landscape.RunAt(point), 0), kTimes);
+  return TakesAway(faster, landscape.PlainFilterOf(*landscape.RunsAt(point)), kTimes);
 }
 
 /// Back to slower observers, which see more, as far as the model with the causes found so far does
 /// not lose the rotor under them, nor falls behind; not below `slowest`.
-void SlowDown(RecordLandscape& landscape, const SelectionRules& rules, std::size_t slowest,
+void SlowDown(ObservedLandscape& landscape, const SelectionRules& rules, std::size_t slowest,
               CauseSelection& found) {
   while (landscape.speed() > slowest) {
     const std::size_t fast = landscape.speed();
-    const Whitener faster = landscape.search().WhitenerOf(landscape.RunAt(found.point), 0);
+    const Whitener faster = landscape.PlainFilterOf(*landscape.RunsAt(found.point));
     landscape.Observe(fast - 1);
     Refined fit;
-    if (!ModelDiverges(landscape.rig(), landscape.RunAt(found.point))) {
+    if (!landscape.ModelDivergesAt(found.point)) {
       landscape.LineariseAt(found.point);
       if (!SensitivitiesDiverge(landscape.view().sum)) {
         fit = landscape.Fit(found.causes, found.point, rules.effort.passes);
@@ -45,22 +40,23 @@ void SlowDown(RecordLandscape& landscape, const SelectionRules& rules, std::size
     }
     found.point = fit.point;
     if (!rules.effort.first_cause_only) RefineLastShape(landscape, fit, found);
-    found.calibrated_runs = CalibratedRuns(landscape, found);
+    found.calibrated_runs = landscape.RunsAt(found.calibrated);
   }
 }
 
 /// Whether there were swallowed causes, or a calibration in place of one that had lost its way.
-bool TakeSwallowed(RecordLandscape& landscape, const SelectionRules& rules, CauseSelection& found) {
+bool TakeSwallowed(ObservedLandscape& landscape, const SelectionRules& rules,
+                   CauseSelection& found) {
   const Point before = found.calibrated;
   const bool taken = TakeSwallowedCauses(landscape, rules, found);
   if (!taken && found.calibrated == before) return false;
-  found.calibrated_runs = CalibratedRuns(landscape, found);
+  found.calibrated_runs = landscape.RunsAt(found.calibrated);
   return true;
 }
 
 }  // namespace
 
-void FindCauses(RecordLandscape& landscape, const SelectionRules& rules, CauseSelection& found) {
+void FindCauses(ObservedLandscape& landscape, const SelectionRules& rules, CauseSelection& found) {
   std::size_t slowest = 0;                     // of the observers that can be gone back to
   bool asked = rules.effort.first_cause_only;  // for causes that calibration swallowed
   for (std::size_t stage = 0;; ++stage) {

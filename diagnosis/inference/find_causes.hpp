@@ -4,12 +4,13 @@
 //
 // Thread  blocks the caller, two threads inside.
 
-#include "diagnosis/inference/record_landscape.hpp"
+#include "diagnosis/inference/cause_selection.hpp"
+#include "diagnosis/inference/observed_landscape.hpp"
 
 namespace levitas::diagnosis {
 
 /// Adds the best cause while one gains enough (selection_steps.hpp). `found` has the calibrated
 /// model; the landscape ends linearised at the last fit.
-void FindCauses(RecordLandscape& landscape, const SelectionRules& rules, CauseSelection& found);
+void FindCauses(ObservedLandscape& landscape, const SelectionRules& rules, CauseSelection& found);
 
 }  // namespace levitas::diagnosis

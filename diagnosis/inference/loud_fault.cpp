@@ -14,15 +14,11 @@ namespace {
 
 constexpr std::size_t kMostTried = 3;
 
-bool IsLoud(const std::vector<Trajectory>& runs, std::size_t axes) {
-  return TakesAway(MakeWhitener(runs, axes, kWhiteningOrder), MakeWhitener(runs, axes, 0), kLoud);
-}
-
 /// The best single cause from the rig file's numbers on, all innovations weighed alike; with the
 /// shapes found so far.
-CauseSet FromFile(RecordLandscape& landscape, const SelectionRules& rules,
+CauseSet FromFile(ObservedLandscape& landscape, const SelectionRules& rules,
                   const CauseSelection& found) {
-  landscape.LineariseUnfiltered({landscape.search().HealthyPoint().theta, found.point.shapes});
+  landscape.LineariseUnfiltered({landscape.FileNumbers().theta, found.point.shapes});
   const std::vector<Candidate> screened = landscape.Screen({});
   CauseSet best;
   for (std::size_t i = 0; i < std::min(screened.size(), kMostTried); ++i) {
@@ -37,9 +33,13 @@ CauseSet FromFile(RecordLandscape& landscape, const SelectionRules& rules,
 
 }  // namespace
 
-bool TakeLoudFault(RecordLandscape& landscape, const SelectionRules& rules, CauseSelection& found) {
-  if (rules.most_causes == 0 || !IsLoud(landscape.RunAt(found.point), landscape.rig().axes))
-    return false;
+bool IsLoud(const std::vector<Trajectory>& runs, std::size_t axes) {
+  return TakesAway(MakeWhitener(runs, axes, kWhiteningOrder), MakeWhitener(runs, axes, 0), kLoud);
+}
+
+bool TakeLoudFault(ObservedLandscape& landscape, const SelectionRules& rules,
+                   CauseSelection& found) {
+  if (rules.most_causes == 0 || !landscape.IsLoudAt(found.point)) return false;
   const Point linearised_at = landscape.view().point;
   const double before = landscape.MisfitOf(found.causes, found.point);
   CauseSet loud = FromFile(landscape, rules, found);

@@ -14,14 +14,20 @@
 // Cost     where something is loud three linearisations, four fits and three runs; else one run.
 // Thread   blocks the caller, two threads inside.
 
-#include "diagnosis/inference/record_landscape.hpp"
+#include <vector>
+
+#include "diagnosis/inference/cause_selection.hpp"
+#include "diagnosis/inference/observed_landscape.hpp"
 
 namespace levitas::diagnosis {
+
+/// Whether what runs leave is.
+[[nodiscard]] bool IsLoud(const std::vector<Trajectory>& runs, std::size_t axes);
 
 /// After the first search for a cause: a single cause that explains the records better than `found`
 /// takes its place. True: it did; the landscape is linearised beside it. Else both are as they
 /// were.
-[[nodiscard]] bool TakeLoudFault(RecordLandscape& landscape, const SelectionRules& rules,
+[[nodiscard]] bool TakeLoudFault(ObservedLandscape& landscape, const SelectionRules& rules,
                                  CauseSelection& found);
 
 }  // namespace levitas::diagnosis

@@ -4,8 +4,11 @@
 #include <utility>
 
 #include "diagnosis/inference/calibrate.hpp"
+#include "diagnosis/inference/loud_fault.hpp"
 #include "diagnosis/inference/ranking.hpp"
+#include "diagnosis/inference/record_file_fits.hpp"
 #include "diagnosis/inference/refine_shape.hpp"
+#include "diagnosis/model/divergence.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -43,6 +46,24 @@ void RecordLandscape::Observe(std::size_t speed) {
 void RecordLandscape::LineariseAt(const Point& point) { Linearise(point, kWhiteningOrder); }
 
 void RecordLandscape::LineariseUnfiltered(const Point& point) { Linearise(point, 0); }
+
+Runs RecordLandscape::RunsAt(const Point& point) const {
+  return std::make_shared<const std::vector<Trajectory>>(RunAt(point));
+}
+
+bool RecordLandscape::ModelDivergesAt(const Point& point) const {
+  return ModelDiverges(rig_, RunAt(point));
+}
+
+bool RecordLandscape::IsLoudAt(const Point& point) const { return IsLoud(RunAt(point), rig_.axes); }
+
+Whitener RecordLandscape::PlainFilterOf(const std::vector<Trajectory>& runs) const {
+  return search_.WhitenerOf(runs, 0);
+}
+
+std::unique_ptr<FileFits> RecordLandscape::FitsFromFile() const {
+  return std::make_unique<RecordFileFits>(search_, terms_, records_);
+}
 
 double RecordLandscape::MisfitOf(const Causes& causes, const Point& point) const {
   return refiner_.Misfit(point, kWhiteningOrder, causes);
@@ -94,7 +115,8 @@ Refined RecordLandscape::Refit(const Causes& set, double worth) const {
 Refined RecordLandscape::RefineShapeOf(const Causes& set, std::size_t at, Refined fit,
                                        double worth) const {
   if (!HasShape(set[at])) return fit;
-  return RefineShape(refiner_, set[at], set, view_, passes_, std::move(fit), terms_, worth);
+  const RefinerMemberFits fits(refiner_, set, view_, passes_);
+  return RefineShape(fits, set[at], std::move(fit), terms_, worth);
 }
 
 bool RecordLandscape::HasShape(const Hypothesis& cause) const { return HasFamily(cause, terms_); }

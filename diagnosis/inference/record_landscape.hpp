@@ -4,38 +4,29 @@
 // Lifetime refers to rig, records, settings and terms of the caller.
 // Units    evidence in nats. Thread: blocks the caller, two threads inside.
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "diagnosis/inference/cause_selection.hpp"
-#include "diagnosis/inference/evidence_landscape.hpp"
+#include "diagnosis/inference/observed_landscape.hpp"
 
 namespace levitas::diagnosis {
 
-class RecordLandscape final : public EvidenceLandscape {
+class RecordLandscape final : public ObservedLandscape {
  public:
   /// `recorded` is fitted, as spans where it has more than `effort.rows`.
   RecordLandscape(const RigView& rig, const std::vector<Record>& recorded, const Settings& settings,
                   const Effort& effort, const std::vector<Term>& terms);
 
-  /// Selects the observers of one speed of kSpeeds; invalidates the linearisation.
-  void Observe(std::size_t speed);
   [[nodiscard]] std::vector<Trajectory> RunAt(const Point& point) const {
     return search_.Run(records_, gains_, point);
   }
 
-  /// LineariseAt with every innovation weighed alike: no filter takes a fault for coloured noise.
-  void LineariseUnfiltered(const Point& point);
-  /// [nat] of these causes at the point, with a filter of its own; smaller is better.
-  [[nodiscard]] double MisfitOf(const Causes& causes, const Point& point) const;
-
   [[nodiscard]] const RigView& rig() const { return rig_; }
-  [[nodiscard]] const std::vector<Term>& terms() const { return terms_; }
   [[nodiscard]] const Search& search() const { return search_; }
   [[nodiscard]] const std::vector<Record>& records() const { return records_; }
   [[nodiscard]] const Gains& gains() const { return gains_; }
-  [[nodiscard]] std::size_t speed() const { return speed_; }
-  [[nodiscard]] const View& view() const { return view_; }
   /// On the present linearisation, `given` being part of the base.
   [[nodiscard]] Evidence EvidenceGiven(const Causes& given) const {
     return {view_.problem, terms_, given};
@@ -59,6 +50,19 @@ class RecordLandscape final : public EvidenceLandscape {
   [[nodiscard]] std::string PlaceAt(const Point& point, const Hypothesis& cause) const override;
   [[nodiscard]] std::vector<ModeProbe> Probes() const override;
   void ReportProgress(double share, const std::string& what) const override;
+
+  [[nodiscard]] const std::vector<Term>& terms() const override { return terms_; }
+  [[nodiscard]] std::size_t speed() const override { return speed_; }
+  void Observe(std::size_t speed) override;
+  [[nodiscard]] const View& view() const override { return view_; }
+  void LineariseUnfiltered(const Point& point) override;
+  [[nodiscard]] Runs RunsAt(const Point& point) const override;
+  [[nodiscard]] bool ModelDivergesAt(const Point& point) const override;
+  [[nodiscard]] bool IsLoudAt(const Point& point) const override;
+  [[nodiscard]] Whitener PlainFilterOf(const std::vector<Trajectory>& runs) const override;
+  [[nodiscard]] double MisfitOf(const Causes& causes, const Point& point) const override;
+  [[nodiscard]] Point FileNumbers() const override { return search_.HealthyPoint(); }
+  [[nodiscard]] std::unique_ptr<FileFits> FitsFromFile() const override;
 
  private:
   void Linearise(Point at, std::size_t whitening_order);

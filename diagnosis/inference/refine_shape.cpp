@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace levitas::diagnosis {
@@ -15,14 +16,8 @@ constexpr double kWorth = 10.0;
 
 class Members {
  public:
-  Members(const Refiner& refiner, const Hypothesis& cause, const std::vector<Hypothesis>& causes,
-          const View& view, int passes, const std::vector<Term>& terms)
-      : refiner_(refiner),
-        cause_(cause),
-        causes_(causes),
-        view_(view),
-        passes_(passes),
-        terms_(terms) {}
+  Members(const MemberFits& fits, const Hypothesis& cause, const std::vector<Term>& terms)
+      : fits_(fits), cause_(cause), terms_(terms) {}
 
   [[nodiscard]] const Family& family() const { return terms_[cause_.terms.front()].family; }
 
@@ -30,10 +25,8 @@ class Members {
   [[nodiscard]] Refined Improve(std::size_t parameter, double width, Refined start) {
     const double here = std::log(start.point.shapes[cause_.terms.front()][parameter]);
     // A parameter that did not help leaves the point to the next one.
-    if (!about_.slopes || about_.point != start.point) {
-      about_ = refiner_.LinearisedAt(causes_, start.point, view_);
-    }
-    const auto step = refiner_.StepAlong(causes_, start.point, about_, width, [&](double by) {
+    if (!about_ || about_->point != start.point) about_ = fits_.LinearisedAt(start.point);
+    const auto step = fits_.StepAlong(start.point, *about_, width, [&](double by) {
       return Moved(start.point, parameter, here + by);
     });
     for (double share = 1.0; share > kLeast; share *= 0.3) {
@@ -41,7 +34,7 @@ class Members {
       for (std::size_t i = 0; i < at.theta.size(); ++i) {
         at.theta[i] += share * (step.theta[i] - at.theta[i]);
       }
-      Refined fit = refiner_.Fit(causes_, std::move(at), about_, passes_, start.evidence);
+      Refined fit = fits_.Fit(std::move(at), *about_, start.evidence);
       if (fit.ok && fit.evidence > start.evidence) return fit;
     }
     return start;
@@ -56,13 +49,10 @@ class Members {
     return point;
   }
 
-  const Refiner& refiner_;
+  const MemberFits& fits_;
   const Hypothesis& cause_;
-  const std::vector<Hypothesis>& causes_;
-  const View& view_;
-  int passes_;
   const std::vector<Term>& terms_;
-  View about_;
+  std::optional<View> about_;
 };
 
 }  // namespace
@@ -72,10 +62,9 @@ bool HasFamily(const Hypothesis& cause, const std::vector<Term>& terms) {
                      [&terms](std::size_t i) { return static_cast<bool>(terms[i].family.member); });
 }
 
-Refined RefineShape(const Refiner& refiner, const Hypothesis& cause,
-                    const std::vector<Hypothesis>& causes, const View& view, int passes,
-                    Refined start, const std::vector<Term>& terms, double worth) {
-  Members members(refiner, cause, causes, view, passes, terms);
+Refined RefineShape(const MemberFits& fits, const Hypothesis& cause, Refined start,
+                    const std::vector<Term>& terms, double worth) {
+  Members members(fits, cause, terms);
   Refined best = std::move(start);
   const Family::Shape width = members.family().log_width;
   // A parameter whose trials failed fails again until another one has moved the fit.

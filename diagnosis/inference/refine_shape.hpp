@@ -13,19 +13,17 @@
 
 #include <vector>
 
-#include "diagnosis/inference/refine.hpp"
+#include "diagnosis/inference/member_fits.hpp"
 
 namespace levitas::diagnosis {
 
 /// True when the hypothesis is a member of a family.
 [[nodiscard]] bool HasFamily(const Hypothesis& cause, const std::vector<Term>& terms);
 
-/// `terms` are those of the refiner. `start` is the fit of `causes`, `cause` among them, on `view`.
-/// Returns the fit with the best member, whose shape is that of its point. Ends when the evidence
-/// `worth` is out of reach though all further rounds gained as much as the last one.
-[[nodiscard]] Refined RefineShape(const Refiner& refiner, const Hypothesis& cause,
-                                  const std::vector<Hypothesis>& causes, const View& view,
-                                  int passes, Refined start, const std::vector<Term>& terms,
-                                  double worth = kAnyEvidence);
+/// `start` is the fit of causes with `cause` among them, to which `fits` belongs. Returns the fit
+/// with the best member, whose shape is that of its point. Ends when the evidence `worth` is out of
+/// reach though all further rounds gained as much as the last one.
+[[nodiscard]] Refined RefineShape(const MemberFits& fits, const Hypothesis& cause, Refined start,
+                                  const std::vector<Term>& terms, double worth = kAnyEvidence);
 
 }  // namespace levitas::diagnosis

@@ -23,13 +23,22 @@
 //           the records, and once on all of them.
 // Thread    blocks the caller, two threads inside.
 
-#include "diagnosis/inference/record_landscape.hpp"
+#include <vector>
+
+#include "diagnosis/inference/cause_selection.hpp"
+#include "diagnosis/inference/observed_landscape.hpp"
 
 namespace levitas::diagnosis {
 
+/// Whether a fit left a number, shapes of modes included, surely beyond the tolerances. `theta` is
+/// where it ended, `problem` is about that.
+[[nodiscard]] bool WentFar(const std::vector<Term>& terms, const LinearProblem& problem,
+                           const std::vector<double>& theta, const std::vector<Hypothesis>& causes,
+                           double tolerances);
+
 /// True when any was taken. A calibration that is replaced takes the causes found about it along.
 /// The landscape is linearised at found.point before and after.
-bool TakeSwallowedCauses(RecordLandscape& landscape, const SelectionRules& rules,
+bool TakeSwallowedCauses(ObservedLandscape& landscape, const SelectionRules& rules,
                          CauseSelection& found);
 
 }  // namespace levitas::diagnosis

@@ -6,11 +6,11 @@
 
 namespace levitas::diagnosis {
 
-bool WhitenAnew(RecordLandscape& landscape, const SelectionRules& rules, CauseSelection& found) {
+bool WhitenAnew(ObservedLandscape& landscape, const SelectionRules& rules, CauseSelection& found) {
   constexpr double kSomething = 1.03;  // 30 nat of a thousand samples
   if (found.causes.empty()) return false;
-  if (!TakesAway(landscape.view().whitener,
-                 landscape.search().WhitenerOf(*found.calibrated_runs, 0), kSomething))
+  if (!TakesAway(landscape.view().whitener, landscape.PlainFilterOf(*found.calibrated_runs),
+                 kSomething))
     return false;
   // First without any filter: the next one would hold what the former one left of the cause.
   landscape.ReportProgress(0.6, "whitening anew");

@@ -11,12 +11,13 @@
 //         for every further cause.
 // Thread  blocks the caller, two threads inside.
 
-#include "diagnosis/inference/record_landscape.hpp"
+#include "diagnosis/inference/cause_selection.hpp"
+#include "diagnosis/inference/observed_landscape.hpp"
 
 namespace levitas::diagnosis {
 
 /// Linearises at the causes found and fits them again, first unfiltered, where the present filter
 /// takes anything away; what was refitted behind it is forgotten. False: there is nothing in it.
-bool WhitenAnew(RecordLandscape& landscape, const SelectionRules& rules, CauseSelection& found);
+bool WhitenAnew(ObservedLandscape& landscape, const SelectionRules& rules, CauseSelection& found);
 
 }  // namespace levitas::diagnosis

@@ -55,7 +55,8 @@ TEST(RefineShape, FindsTheShapeBetweenTwoMembers) {
   const Refined blunt =
       refiner.Fit(causes, {search.Solve(view.problem, causes), view.point.shapes}, view, 5);
   ASSERT_TRUE(blunt.ok);
-  const Refined sharp = RefineShape(refiner, *member, causes, view, 5, blunt, terms);
+  const Refined sharp =
+      RefineShape(RefinerMemberFits(refiner, causes, view, 5), *member, blunt, terms);
   EXPECT_GT(sharp.evidence, blunt.evidence + kDecisive);
   const double found = sharp.point.shapes[member->terms.front()][0];
   EXPECT_NEAR(found, TrueSlew(trial), 0.05 * TrueSlew(trial));

@@ -5,6 +5,7 @@
 // Nonlinear  a test may say what the nonlinear model makes of a set instead (`fitted`), that it
 //            cannot be fitted (`refused`), and what a better shape of an effect is worth (`shape`).
 // Seen       which sets were fitted, in order, and how often it was linearised anew.
+// Interface  Landscape: EvidenceLandscape, or one that asks for more (toy_observed.hpp).
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -56,13 +57,15 @@ inline constexpr std::array kOneMore{
     effect::Id::kModalDamping,  effect::Id::kModalFrequency,         effect::Id::kRotorMass};
 }  // namespace role
 
-class ToyLandscape final : public EvidenceLandscape {
+template <class Landscape>
+class ToyEvidence : public Landscape {
  public:
+  using Causes = EvidenceLandscape::Causes;
   using Effects = std::set<effect::Id>;
   static constexpr double kOccam = 3.0;  // [nat]
   static inline const Family::Shape kBest{2.0};
 
-  explicit ToyLandscape(std::vector<double> readings) : readings_(std::move(readings)) {}
+  explicit ToyEvidence(std::vector<double> readings) : readings_(std::move(readings)) {}
 
   /// Its direction has unit length afterwards.
   Hypothesis Add(effect::Id effect, const std::vector<double>& along,
@@ -199,11 +202,15 @@ class ToyLandscape final : public EvidenceLandscape {
     return Directions(set).completeOrthogonalDecomposition().solve(Vector(readings_));
   }
 
-  std::vector<double> readings_;
   std::vector<Eigen::VectorXd> along_;
+
+ protected:
+  std::vector<double> readings_;
   Causes all_;
   Point at_;  ///< where it is linearised
 };
+
+using ToyLandscape = ToyEvidence<EvidenceLandscape>;
 
 /// What a thorough search goes by.
 inline SelectionRules ThoroughRules() {
