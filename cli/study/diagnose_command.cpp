@@ -16,6 +16,7 @@
 #include "cli/study/answer_folder.hpp"
 #include "cli/study/diagnose_plan.hpp"
 #include "cli/study/diagnosis_inputs.hpp"
+#include "cli/study/early_stop.hpp"
 #include "cli/study/healthy_session.hpp"
 #include "cli/study/kept_memory.hpp"
 #include "cli/study/laws_of_records.hpp"
@@ -31,6 +32,7 @@
 #include "levitas_version.hpp"
 #include "report/diagnosis/diagnosis_files.hpp"
 #include "report/diagnosis/diagnosis_text.hpp"
+#include "rt/say.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -41,7 +43,9 @@ constexpr const char* kDiagnoseHelp =
     "healthy rig may have. Give several records of one rig at once: standing "
     "with "
     "a test signal, spinning, running up. Writes diagnosis.json, extended_rig.yaml, "
-    "calibrated_rig.yaml and report.html into --out; a terminal shows how far it is.\n"
+    "calibrated_rig.yaml and report.html into --out; a terminal shows how far it is. Ctrl-C ends "
+    "the search and writes the best answer so far, which says so, with exit status 1; once more "
+    "ends at once.\n"
     "--plan without --out prints before any diagnosis which faults, at the size that `amb effects` "
     "calls clear, these records can tell apart.\n"
     "Records are sessions, or CSV or MAT as in docs/formats.md. Examples:\n"
@@ -101,7 +105,9 @@ Diagnosed DiagnoseLevitator(const diagnosis::DiagnosisRequest& inputs) {
   return out;
 }
 
-Diagnosed DiagnoseRotor(const diagnosis::DiagnosisRequest& inputs) {
+Diagnosed DiagnoseRotor(diagnosis::DiagnosisRequest inputs) {
+  const EarlyStop stop;
+  inputs.settings.stop = EarlyStop::Asked;
   Diagnosed out;
   out.report = diagnosis::BuildReport(diagnosis::DiagnoseFiles(inputs), inputs.rig);
   if (out.report.needs_experiment) {
@@ -170,7 +176,7 @@ ExitStatus Run(const DiagnoseOptions& options) {
   inputs.settings.quick = options.quick;
   inputs.as_is = options.as_is;
   inputs.settings.progress = [&progress](double share, const std::string& what) {
-    progress.Show(share, what);
+    progress.Show(share, EarlyStop::Asked() ? "stopping: " + what : what);
   };
   Diagnosed found =
       levitator::IsLevitator(inputs.rig.plant) ? DiagnoseLevitator(inputs) : DiagnoseRotor(inputs);
@@ -185,7 +191,9 @@ ExitStatus Run(const DiagnoseOptions& options) {
   if (!options.plan.empty()) WritePlan(options.plan, found, written);
   if (!options.json_path.empty()) written.push_back(options.json_path);
   TellWritten(written);
-  return ExitStatus::kDone;
+  if (!found.report.stopped) return ExitStatus::kDone;
+  rt::Say("amb: the search was stopped before its end: the answer is what it had found by then");
+  return ExitStatus::kOther;
 }
 
 CLI::Option* AddPlanOptions(CLI::App& command, DiagnoseOptions& options) {

@@ -14,6 +14,7 @@ namespace {
 constexpr std::size_t kFastRows = 18'000;  ///< of all records
 constexpr std::size_t kStartRows = 30'000;
 constexpr int kStartPasses = 5;
+constexpr int kSecondPasses = 12;
 constexpr double kHeld = 0.2;  ///< of its tolerance
 
 /// Whether a filter takes the fit's innovations for coloured: it may hide an orbit.
@@ -79,7 +80,8 @@ Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::
                            const std::vector<Record>& all, const std::vector<Record>& records,
                            const Gains& gains, const ObserverSpeed& speed, int passes) {
   const std::vector<Term> held = HeldToFile(terms);
-  const Search cautious(rig, held, std::nullopt, search.model_error_share());
+  Search cautious(rig, held, std::nullopt, search.model_error_share());
+  cautious.StopWhen(search.stop());
   const std::vector<Record> part = Spans(all, kStartRows, rig.period_s);
   const Point start = FromFar(rig, cautious, held, Spans(all, kFastRows, rig.period_s), part,
                               cautious.DesignGains(part, speed));
@@ -90,7 +92,14 @@ Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::
   const std::vector<Record> few = Spans(resting, kStartRows, rig.period_s);
   const Point other = FromFar(rig, cautious, held, Spans(resting, kFastRows, rig.period_s), few,
                               cautious.DesignGains(few, speed));
-  Refined again = refiner.Approach(other, kWhiteningOrder, passes);
+  // As far as a part of all records shows: a start that is no better there is not worth all rows.
+  const Gains part_gains = search.DesignGains(part, speed);
+  const Refiner partly(search, terms, part, part_gains, rig.axes);
+  const Refined begun = partly.Approach(other, kWhiteningOrder, kSecondPasses);
+  if (!begun.ok || (best.ok && !(partly.Misfit(begun.point, kWhiteningOrder) <
+                                 partly.Misfit(best.point, kWhiteningOrder))))
+    return best;
+  Refined again = refiner.Approach(begun.point, kWhiteningOrder, passes);
   const bool better = again.ok && (!best.ok || refiner.Misfit(again.point, kWhiteningOrder) <
                                                    refiner.Misfit(best.point, kWhiteningOrder));
   return better ? again : best;

@@ -50,6 +50,7 @@ struct CauseSelection {
   double leader_evidence{};           ///< of all causes with the first one
   std::vector<CauseSet> contenders;   ///< sets that the leader's evidence does not refute
   bool whitened_anew{};               ///< by a search that ends with its first cause
+  bool stopped{};                     ///< the search was ended before everything was tried
   Doubt doubt{Doubt::kNothing};
   double probability{};  ///< of what is suspected
 

@@ -119,6 +119,7 @@ SearchResult Conclude(const RecordLandscape& landscape, const std::vector<Record
   answer.residual = AnalyseResidual(landscape.rig(), *runs);
   if (const std::string why = WhyNotJudged(landscape.rig(), *runs); !why.empty())
     throw BadInput(why);
+  answer.stopped = found.stopped;
   answer.explained =
       Explained(AnalyseResidual(landscape.rig(), *found.calibrated_runs), answer.residual);
   answer.spread = SpreadOf(landscape, found.causes);
@@ -157,7 +158,7 @@ SearchResult Diagnose(const RigView& rig, const std::vector<Record>& records,
   found.point = landscape.search().HealthyPoint();
   Calibrate(landscape, records, effort.calibrations, found);
   FindCauses(landscape, rules, found);
-  if (effort.first_cause_only) {
+  if (effort.first_cause_only || landscape.StopAsked()) {
     DropUnproven(landscape, rules, found);
     RankCandidates(landscape, rules, found);
     if (found.whitened_anew) RefitAlternatives(landscape, rules, found);
@@ -168,13 +169,16 @@ SearchResult Diagnose(const RigView& rig, const std::vector<Record>& records,
       DropUnproven(landscape, rules, found);
       RankCandidates(landscape, rules, found);
       RefitAlternatives(landscape, rules, found);
-    } while (DropFailedLeader(landscape, rules, found));
+    } while (!landscape.StopAsked() && DropFailedLeader(landscape, rules, found));
   }
   DropUngained(landscape, rules.judging, found);
-  NameMovedCalibration(landscape, rules, found);
-  JudgeOnValidation(landscape, validation, rules.judging, found);
-  DoubtCutOffChain(landscape, rules, found);
-  SuspectCause(landscape, rules.judging, found);
+  found.stopped = landscape.StopAsked();
+  if (!found.stopped) {
+    NameMovedCalibration(landscape, rules, found);
+    JudgeOnValidation(landscape, validation, rules.judging, found);
+    DoubtCutOffChain(landscape, rules, found);
+    SuspectCause(landscape, rules.judging, found);
+  }
   return Conclude(landscape, records, rules, found);
 }
 

@@ -54,6 +54,9 @@ struct Settings {
   Judging judging;
   /// Share done and what is being done; may be empty.
   std::function<void(double, const std::string&)> progress;
+  /// Asked between steps, from several threads: true ends the search with what it has found by
+  /// then. May be empty.
+  std::function<bool()> stop;
 };
 
 struct Candidate {
@@ -77,6 +80,7 @@ struct SearchResult {
   Verdict verdict{Verdict::kNone};
   Doubt doubt{Doubt::kNothing};           ///< why the causes are suspected, not named
   double probability{};                   ///< of what is suspected
+  bool stopped{};                         ///< Settings::stop ended the search
   std::vector<Hypothesis> causes;         ///< in the order of selection
   std::vector<effect::Id> also_possible;  ///< effects that the data cannot separate from the first
   std::vector<Estimate> parameters;       ///< of the causes

@@ -60,6 +60,8 @@ class EvidenceLandscape {
   /// Starts for frequencies of modes that the linearisation does not reach.
   [[nodiscard]] virtual std::vector<ModeProbe> Probes() const = 0;
 
+  /// Whether the search is to end with what it has found so far.
+  [[nodiscard]] virtual bool StopAsked() const { return false; }
   /// Share of the whole diagnosis that is done, and what is being done.
   virtual void ReportProgress(double share, const std::string& what) const = 0;
 };

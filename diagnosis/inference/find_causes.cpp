@@ -74,6 +74,7 @@ void FindCauses(ObservedLandscape& landscape, const SelectionRules& rules, Cause
       landscape.LineariseAt(found.point);
     }
     if (found.causes.empty()) found.calibrated_runs = landscape.view().runs;
+    if (landscape.StopAsked()) return;
     // A first cause that brings calibrated numbers back is all there is to find.
     const bool first = !found.causes.empty() && !std::exchange(asked, true) &&
                        TakeSwallowed(landscape, rules, found);

@@ -31,11 +31,18 @@ bool LeadsFar(const SelectionRules& rules, const CauseSelection& found) {
 Verdict GradeOf(const SelectionRules& rules, const Remainder& left, CauseSelection& found) {
   if (IsUnexplained(rules.judging, left, !found.causes.empty())) {
     if (!LeadsFar(rules, found)) return Verdict::kUnknown;
+    const double likely = std::clamp(left.explained, 0.0, 1.0) *
+                          ProbabilityOfLeader(found.candidates, rules.judging.decisive_nat);
+    if (!(likely > kLikely)) return Verdict::kUnknown;
     found.doubt = Doubt::kResidualIsLeft;
-    found.probability = ProbabilityOfLeader(found.candidates, rules.judging.decisive_nat);
+    found.probability = likely;
     return Verdict::kSuspected;
   }
-  if (found.causes.empty()) return Verdict::kNone;
+  if (found.causes.empty()) return found.stopped ? Verdict::kUnknown : Verdict::kNone;
+  if (found.stopped && found.doubt == Doubt::kNothing) {
+    found.doubt = Doubt::kStopped;
+    found.probability = ProbabilityOfLeader(found.candidates, rules.judging.decisive_nat);
+  }
   return found.doubt == Doubt::kNothing ? Verdict::kEffect : Verdict::kSuspected;
 }
 

@@ -35,7 +35,9 @@ RecordFileFits::RecordFileFits(const Search& search, const std::vector<Term>& te
       fast_(cautious_.DesignGains(part_, kFast)),
       coarse_(cautious_, held_, few_, fast_few_, search.rig().axes),
       fine_(cautious_, held_, part_, fast_, search.rig().axes),
-      free_(search, terms, part_, fast_, search.rig().axes) {}
+      free_(search, terms, part_, fast_, search.rig().axes) {
+  cautious_.StopWhen(search.stop());
+}
 
 JointFit RecordFileFits::Free(const Point& held, const std::vector<Hypothesis>& causes) const {
   JointFit made{causes, held, free_.Approach(held, kWhiteningOrder, kFreePasses, causes)};

@@ -36,7 +36,9 @@ RecordLandscape::RecordLandscape(const RigView& rig, const std::vector<Record>& 
       part_(PartOf(recorded, effort, rig.period_s)),
       records_(part_.empty() ? recorded : part_),
       gains_(search_.DesignGains(records_, kSpeeds[0])),
-      refiner_(search_, terms_, records_, gains_, rig.axes) {}
+      refiner_(search_, terms_, records_, gains_, rig.axes) {
+  search_.StopWhen(settings.stop);
+}
 
 void RecordLandscape::Observe(std::size_t speed) {
   speed_ = speed;

@@ -49,6 +49,7 @@ class RecordLandscape final : public ObservedLandscape {
   [[nodiscard]] bool HasShape(const Hypothesis& cause) const override;
   [[nodiscard]] std::string PlaceAt(const Point& point, const Hypothesis& cause) const override;
   [[nodiscard]] std::vector<ModeProbe> Probes() const override;
+  [[nodiscard]] bool StopAsked() const override { return search_.StopAsked(); }
   void ReportProgress(double share, const std::string& what) const override;
 
   [[nodiscard]] const std::vector<Term>& terms() const override { return terms_; }

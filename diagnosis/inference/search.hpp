@@ -3,7 +3,9 @@
 //
 // Thread  blocks the caller, two threads inside.
 
+#include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "diagnosis/inference/diagnose.hpp"
@@ -82,6 +84,11 @@ class Search {
                                     const NormalEquations& below, const NormalEquations& above,
                                     double apart, double most) const;
 
+  /// Settings::stop, for who works with this search.
+  void StopWhen(std::function<bool()> stop) { stop_ = std::move(stop); }
+  [[nodiscard]] const std::function<bool()>& stop() const { return stop_; }
+  [[nodiscard]] bool StopAsked() const { return stop_ && stop_(); }
+
   [[nodiscard]] const RigView& rig() const { return rig_; }
   [[nodiscard]] const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
   /// Where the healthy rig is: the start of every search.
@@ -100,6 +107,7 @@ class Search {
   const std::vector<Term>& terms_;
   std::vector<Hypothesis> hypotheses_;
   double model_error_share_;
+  std::function<bool()> stop_;
 };
 
 /// Below this no rig is, whatever a straight line or a normal distribution says.

@@ -51,6 +51,7 @@ CauseSet BestOfScreen(const EvidenceLandscape& landscape, const SelectionRules& 
   found.refitted.clear();
   for (std::size_t i = 0; i < std::min(screened.size(), rules.effort.shortlist); ++i) {
     if (i > 0 && screened[i].score < std::max(from, bar.enough)) break;
+    if (landscape.StopAsked()) break;
     landscape.ReportProgress(share + 0.02 * static_cast<double>(i),
                              fmt::format("refitting {}", effect::At(screened[i].effect).name));
     std::vector<Hypothesis> causes = found.causes;
@@ -69,6 +70,7 @@ void TryProbes(const EvidenceLandscape& landscape, const SelectionRules& rules,
                const std::vector<ModeProbe>& probes, double null, CauseSelection& found,
                CauseSet& best) {
   for (const ModeProbe& probe : probes) {
+    if (landscape.StopAsked()) return;
     landscape.ReportProgress(0.3, "looking for a mode elsewhere");
     const Hypothesis& mode = landscape.hypotheses()[probe.hypothesis];
     std::vector<Hypothesis> causes = found.causes;
@@ -122,7 +124,7 @@ void TryEffectWith(const EvidenceLandscape& landscape, const SelectionRules& rul
   for (std::size_t n = 0; n < std::min(screened.size(), rules.effort.shortlist); ++n) {
     std::set<std::size_t> set = rest;
     set.insert(screened[n].hypothesis);
-    if (!merger.tried.insert(set).second) continue;
+    if (!merger.tried.insert(set).second || landscape.StopAsked()) continue;
     landscape.ReportProgress(0.7, fmt::format("refitting {}", effect::At(screened[n].effect).name));
     std::vector<Hypothesis> causes{landscape.hypotheses()[screened[n].hypothesis]};
     causes.insert(causes.end(), others.begin(), others.end());
@@ -180,7 +182,7 @@ bool AddCause(const EvidenceLandscape& landscape, const SelectionRules& rules, d
   TryProbes(landscape, rules, probes, bar.null, found, best);
   // The nonlinear model must confirm the gain of the linear screen.
   if (!best.fit.ok || !(best.fit.evidence - bar.null > bar.enough)) {
-    if (!(first > rules.judging.far_beyond * bar.enough)) return false;
+    if (!(first > rules.judging.far_beyond * bar.enough) || landscape.StopAsked()) return false;
     TakeUnconfirmed(landscape, rules, screened.front().hypothesis, found);
     return true;
   }
@@ -193,7 +195,7 @@ bool AddCause(const EvidenceLandscape& landscape, const SelectionRules& rules, d
 
 void MergeCauses(EvidenceLandscape& landscape, const SelectionRules& rules, CauseSelection& found) {
   for (std::size_t tried = 0; found.causes.size() > 1 && tried < rules.most_causes; ++tried) {
-    if (!MergeOnce(landscape, rules, found)) return;
+    if (landscape.StopAsked() || !MergeOnce(landscape, rules, found)) return;
   }
 }
 

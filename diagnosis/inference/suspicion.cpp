@@ -13,7 +13,6 @@
 namespace levitas::diagnosis {
 namespace {
 
-constexpr double kLikely = 0.5;
 /// Of the leader's evidence: of an effect with less the data say nothing, and what they say of the
 /// leader is not said of it.
 constexpr double kSpokenFor = 0.5;

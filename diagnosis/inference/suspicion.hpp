@@ -18,6 +18,9 @@
 
 namespace levitas::diagnosis {
 
+/// Probability from which on a cause is suspected.
+inline constexpr double kLikely = 0.5;
+
 /// Probability that the leader, or what the data do not separate from it, is there. `candidates`
 /// best first.
 [[nodiscard]] double ProbabilityOfLeader(const std::vector<Candidate>& candidates, double tie_nat);

@@ -14,17 +14,39 @@ namespace {
 
 constexpr std::size_t kMostSwallowed = 3;
 
+bool IsAmong(const std::vector<Hypothesis>& causes, const Hypothesis& cause) {
+  return std::any_of(causes.begin(), causes.end(), [&cause](const Hypothesis& other) {
+    return other.effect == cause.effect && other.place == cause.place;
+  });
+}
+
+/// What is worth a fit on top of `found`: causes that were found about the calibrated numbers, whose
+/// own numbers may have gone the wrong way with those, and the best few of the screen.
+std::vector<Hypothesis> WorthAFit(const EvidenceLandscape& landscape,
+                                  const std::vector<Candidate>& screened, const Judging& judging,
+                                  const std::vector<Hypothesis>& before, const JointFit& found) {
+  std::vector<Hypothesis> worth;
+  for (const Hypothesis& cause : before) {
+    if (!IsAmong(found.causes, cause)) worth.push_back(cause);
+  }
+  for (std::size_t i = 0; i < std::min(screened.size(), kMostSwallowed); ++i) {
+    const Hypothesis& cause = landscape.hypotheses()[screened[i].hypothesis];
+    if (screened[i].score > judging.decisive_nat && !IsAmong(worth, cause)) worth.push_back(cause);
+  }
+  return worth;
+}
+
 /// The best cause more, where it lowers the cost by suspected_nat.
 bool AddOne(const FileFits& fits, const EvidenceLandscape& landscape, const Judging& judging,
-            JointFit& found) {
+            const std::vector<Hypothesis>& before, JointFit& found) {
   const View view = fits.LineariseAt(found.held);
-  const std::vector<Candidate> screened = fits.Screened(view, found);
   JointFit best;
-  for (std::size_t i = 0; i < std::min(screened.size(), kMostSwallowed); ++i) {
-    if (!(screened[i].score > judging.decisive_nat)) break;
+  for (const Hypothesis& cause :
+       WorthAFit(landscape, fits.Screened(view, found), judging, before, found)) {
+    if (landscape.StopAsked()) break;
     landscape.ReportProgress(
-        0.25, fmt::format("calibrating anew with {}", effect::At(screened[i].effect).name));
-    JointFit with = fits.With(view, found, landscape.hypotheses()[screened[i].hypothesis]);
+        0.25, fmt::format("calibrating anew with {}", effect::At(cause.effect).name));
+    JointFit with = fits.With(view, found, cause);
     if (with.cost < best.cost) best = std::move(with);
   }
   if (!(best.cost < found.cost - judging.suspected_nat)) return false;
@@ -93,12 +115,13 @@ bool TakeSwallowedCauses(ObservedLandscape& landscape, const SelectionRules& rul
   const std::unique_ptr<FileFits> fits = landscape.FitsFromFile();
   // Compared on the same rows and with the same observer; the better of two ways without a cause,
   // and what was found so far.
+  const std::vector<Hypothesis> before = found.causes;
   JointFit without = fits->Free(found.calibrated, {});
   if (JointFit anew = fits->Anew(); anew.cost < without.cost) {
     without = std::move(anew);
     CalibrateAnew(landscape, rules, without, found);
   }
-  if (!without.free.ok) return false;
+  if (!without.free.ok || landscape.StopAsked()) return false;
   JointFit with = without;
   if (!found.causes.empty()) {
     with.cost = std::min(with.cost, fits->Free(found.point, found.causes).cost);
@@ -106,7 +129,7 @@ bool TakeSwallowedCauses(ObservedLandscape& landscape, const SelectionRules& rul
   with.held = landscape.FileNumbers();
   while (with.causes.size() < rules.most_causes &&
          WentFar(terms, with.free.problem, with.free.point.theta, with.causes, tolerances)) {
-    if (!AddOne(*fits, landscape, rules.judging, with)) break;
+    if (!AddOne(*fits, landscape, rules.judging, before, with)) break;
   }
   bool taken = false;
   if (!with.causes.empty()) {

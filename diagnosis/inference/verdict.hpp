@@ -34,6 +34,7 @@ enum class Doubt {
   kUnconfirmed,     ///< decisive there, and the user's validation data leave it open
   kValidationHarm,  ///< decisive on the fitted records, refuted by the user's validation data
   kCutOff,          ///< as many causes as a search may have, and a further one would gain
+  kStopped,         ///< found before the search was stopped: not everything was tried against it
   kResidualIsLeft,  ///< far ahead of all others, but a residual is left that it does not explain
 };
 

@@ -189,6 +189,7 @@ std::string ActionText(const DiagnosisReport& report) {
            "change nothing on the machine before.";
   }
   if (!report.causes.empty()) return ActionOfCauses(report);
+  if (report.stopped) return "Diagnose again, to the end, before anything is changed.";
   if (report.verdict == Verdict::kUnknown) {
     return "Look for a disturbance at this frequency: other machines, mains, crosstalk of cables, "
            "loose parts. Run on only while orbit and currents stay in their zones (amb report).";
@@ -277,7 +278,9 @@ std::string Headline(const DiagnosisReport& report) {
   if (report.verdict == Verdict::kNone) {
     text = HeadlineOfNone(report);
   } else {
-    text = report.causes.empty() ? HeadlineOfUnknown(report.residual) : HeadlineOfCauses(report);
+    text = !report.causes.empty() ? HeadlineOfCauses(report)
+           : report.stopped       ? "Stopped before a cause was found."
+                                  : HeadlineOfUnknown(report.residual);
   }
   return report.input_warning.empty() ? text : "Doubtful, check the inputs first. " + text;
 }

@@ -86,6 +86,7 @@ ReportCoverage CoverageFor(const DiagnosisResult& result) {
 void AddFound(const SearchResult& found, DiagnosisReport& report) {
   report.verdict = found.verdict;
   report.doubt = found.doubt;
+  report.stopped = found.stopped;
   report.probability = found.probability;
   for (const Hypothesis& cause : found.causes) {
     report.causes.push_back({NameOf(cause.effect), cause.place});

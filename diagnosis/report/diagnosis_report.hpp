@@ -252,6 +252,7 @@ struct DiagnosisReport {
   ReportCoverage coverage;
   double seconds_of_data{};                    ///< in flight
   double seconds_used{};                       ///< of them, by a search that takes spans
+  bool stopped{};                              ///< the search was ended before its end
   Doubt doubt{};                               ///< of a suspected cause
   double probability{};                        ///< that it is there
   std::string suspected_because;               ///< the doubt in a sentence; else empty

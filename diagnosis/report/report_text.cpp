@@ -59,6 +59,18 @@ std::string UnknownText(const ReportResidual& residual) {
       residual.channel, where, residual.coherent_with);
 }
 
+/// Of a search that was stopped before it had a cause.
+std::string StoppedText(const DiagnosisReport& report) {
+  std::string text =
+      "The search was stopped before it had found a cause: nothing is proven, and nothing ruled "
+      "out.";
+  if (report.candidates.empty() || !(report.candidates.front().evidence_nat > kDecisive))
+    return text;
+  const ReportCandidate& first = report.candidates.front();
+  return text + fmt::format(" The likeliest so far: {} at {}, {:.0f} nat.", first.effect,
+                            first.place, first.evidence_nat);
+}
+
 /// "eddy_current at all axes: tau_us 4.6 us (3 to 6)".
 std::string CauseText(const DiagnosisReport& report, const ReportCause& cause) {
   return fmt::format("{} at {}{}", cause.effect, cause.place, Size(report, cause));
@@ -95,6 +107,7 @@ std::string NotNamed(const DiagnosisReport& report, const ReportCandidate& candi
     return "is decisive on the linearised model only, which the nonlinear one was not asked to "
            "confirm";
   }
+  if (report.stopped) return "was not tried to the end: the search was stopped";
   if (report.verdict == Verdict::kUnknown) return "does not explain the residual that is left";
   return "is decisive on the fitted samples, but its gain was not confirmed: it scatters like "
          "chance, or does harm where it was not fitted";
@@ -125,7 +138,7 @@ std::string Finding(const DiagnosisReport& report) {
                        limits.empty() ? "" : " ", limits);
   }
   if (report.verdict == Verdict::kUnknown || report.causes.empty()) {
-    return UnknownText(report.residual);
+    return report.stopped ? StoppedText(report) : UnknownText(report.residual);
   }
   const double nat = OwnEvidence(report);
   std::string text = CauseText(report, report.causes.front()) + "; ";
@@ -181,6 +194,9 @@ std::string SuspicionSentence(const DiagnosisReport& report) {
           "Its {:.0f} nat on the fitted data are decisive, but the validation data refute it: "
           "there the calibrated model foretells more without it.",
           OwnEvidence(report));
+    case Doubt::kStopped:
+      return "The search was stopped before it was complete: not every effect was tried in its "
+             "place or beside it.";
     case Doubt::kCutOff:
       return "As many causes as one answer may have are named, and a further one would still gain: "
              "a chain of causes imitates what is in no vocabulary.";
@@ -235,6 +251,7 @@ std::string VerdictSentence(const DiagnosisReport& report) {
 }
 
 std::string SeparatingExperiment(const DiagnosisReport& report) {
+  if (report.stopped) return "none yet: search the same records to the end first";
   if (!PassesValidation(report)) return ValidationExperiment(report);
   if (report.verdict == Verdict::kNone) {
     const std::string& missing = report.coverage.missing_records;

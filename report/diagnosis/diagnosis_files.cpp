@@ -256,6 +256,7 @@ nlohmann::ordered_json ForecastJson(const diagnosis::ReportForecast& forecast) {
 nlohmann::ordered_json DiagnosisJson(const DiagnosisReport& report) {
   nlohmann::ordered_json json;
   json["verdict"] = Word(report.verdict);
+  json["stopped"] = report.stopped;
   json["cause"] = nullptr;
   if (!report.causes.empty()) json["cause"] = report.causes.front().effect;
   json["also_possible"] = report.also_possible;

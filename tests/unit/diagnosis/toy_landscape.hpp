@@ -92,6 +92,7 @@ class ToyEvidence : public Landscape {
   std::set<Effects> refused;           ///< sets that no fit follows
   std::map<effect::Id, double> shape;  ///< [nat] gained by the best shape of the effect
   std::vector<ModeProbe> probes;
+  bool stop{};                        ///< the search is to end
   std::map<double, double> from;      ///< [nat] where a fit begins with a theta of this value
   mutable std::vector<Effects> fits;  ///< in the order of time
   mutable std::vector<std::vector<double>> starts;     ///< of these fits
@@ -175,6 +176,7 @@ class ToyEvidence : public Landscape {
     return moved ? "at its shape" : cause.place;
   }
   [[nodiscard]] std::vector<ModeProbe> Probes() const override { return probes; }
+  [[nodiscard]] bool StopAsked() const override { return stop; }
   void ReportProgress(double, const std::string&) const override {}
 
   [[nodiscard]] static Effects EffectsOf(const Causes& set) {

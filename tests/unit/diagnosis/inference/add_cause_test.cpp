@@ -72,6 +72,19 @@ struct Elsewhere {
   CauseSelection found = toy.Found({});
 };
 
+// 47 nat on the screen are no cause before a fit has confirmed them, and no fit is begun any more.
+TEST(AddCause, FitsAndAddsNothingOnceASearchIsToEnd) {
+  for (const bool stop : {false, true}) {
+    ToyLandscape toy({10.0});
+    const Hypothesis h = toy.Add(Id::kUnbalance, {1.0});
+    toy.stop = stop;
+    CauseSelection found = toy.Found({});
+    EXPECT_EQ(AddThoroughly(toy, found), !stop);
+    EXPECT_EQ(found.causes.empty(), stop);
+    EXPECT_EQ(WasFitted(toy, {h.effect}), !stop);
+  }
+}
+
 TEST(AddProbedMode, IsNotLookedForInAFirstAnswer) {
   for (const bool first_only : {true, false}) {
     Elsewhere e;

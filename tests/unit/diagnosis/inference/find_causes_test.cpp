@@ -62,6 +62,16 @@ TEST(FindCauses, AddsNoMoreThanThereMayBe) {
   }
 }
 
+TEST(FindCauses, EndsAtOnceWithWhatThereIsWhenItIsToStop) {
+  TwoCausesToFind toy;
+  toy.stop = true;
+  CauseSelection found = toy.With({role::kX});
+  FindCauses(toy, ThoroughRules(), found);
+  EXPECT_EQ(Named(found), EffectSet{role::kX});
+  EXPECT_EQ(toy.view().point, found.point) << "linearised, so that it can be ranked";
+  EXPECT_THAT(toy.fits, IsEmpty());
+}
+
 TEST(FindCauses, KeepsTheRunsOfTheCalibratedModel) {
   OneCauseToFind toy;
   toy.left = {{{kSlowestObserver, {}}, 7.0}};

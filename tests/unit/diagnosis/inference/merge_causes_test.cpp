@@ -38,6 +38,14 @@ TEST(MergeTwoCauses, MayCostTheLeastGainOfACauseAndNoMore) {
   }
 }
 
+TEST(MergeTwoCauses, LeavesThemOnceASearchIsToEnd) {
+  TwoToMerge two;
+  two.toy.fitted[{two.both.effect}] = 0.0;
+  two.toy.stop = true;
+  EXPECT_EQ(two.Merged().causes.size(), 2U);
+  EXPECT_TRUE(two.toy.fits.empty());
+}
+
 TEST(MergeTwoCauses, TakesTheEffectThatTheNonlinearModelPrefers) {
   TwoToMerge two;
   // Leaves 11.8 of 200: -8.9 nat, on the screen and in fact.

@@ -38,6 +38,20 @@ TEST_F(Refine, ApproachFindsAnOffsetFromTheFile) {
   EXPECT_NEAR(fit.point.theta[offset()], kReadsBeside, 0.05 * kOffsetTolerance);
 }
 
+// Two and a half tolerances away, one step of a linear model ends where several do.
+TEST_F(Refine, ApproachEndsAfterItsFirstPassOnceASearchIsToEnd) {
+  const RecordLandscape& of = rest().landscape;
+  Search stopping(of.rig(), of.terms());
+  int asked = 0;
+  stopping.StopWhen([&asked] { return ++asked > 0; });
+  const Refiner refiner(stopping, of.terms(), of.records(), of.gains(), of.rig().axes);
+  const Refined fit = refiner.Approach(File(), kWhiteningOrder, 8);
+  ASSERT_TRUE(fit.ok);
+  EXPECT_EQ(fit.point, File()) << "the step from there was not run";
+  EXPECT_EQ(asked, 1);
+  EXPECT_GT(fit.problem.jtj.size(), 0) << "linearised, so that causes can be weighed";
+}
+
 TEST_F(Refine, MisfitIsLessWhereTheOffsetIs) {
   const Refiner refiner = MakeRefiner();
   Point there = File();

@@ -182,6 +182,33 @@ TEST(TakeSwallowedCauses, TriesTheThreeBestThatTheScreenFindsDecisive) {
   EXPECT_THAT(weak.file->tried, ElementsAre(kOneX));
 }
 
+// About the file the screen need not see what was found about the calibrated numbers: beside a
+// resonance that the file has elsewhere it sees hardly anything.
+TEST(TakeSwallowedCauses, TriesWhatWasFoundBeforeFromTheFileToo) {
+  OneSwallowed toy;
+  toy.number[EffectSet{role::kY}] = kFarNumber;
+  toy.file->free[EffectSet{role::kY}] = {kWithout - 10.0, kFarNumber};
+  toy.file->with[EffectSet{role::kY}] = {kWithout - 200.0, 0.0};
+  toy.misfit = [](const EffectSet&, double at_number) { return at_number; };
+  const Taken end = Take(toy, toy.With({role::kY}));
+  EXPECT_THAT(toy.file->tried, ElementsAre(EffectSet{role::kY}, kOneX));
+}
+
+TEST(TakeSwallowedCauses, TriesWhatWasFoundBeforeOnce) {
+  BentCalibration toy;
+  toy.number[kOneX] = kFarNumber;
+  toy.file->screened = {{role::kX, 40.0}, {role::kY, 30.0}};
+  Take(toy, toy.With(kOneX));
+  EXPECT_THAT(toy.file->tried, ElementsAre(kOneX, EffectSet{role::kY}));
+}
+
+TEST(TakeSwallowedCauses, FitsNothingMoreOnceASearchIsToEnd) {
+  OneSwallowed toy;
+  toy.stop = true;
+  EXPECT_FALSE(Take(toy).taken);
+  EXPECT_THAT(toy.file->tried, IsEmpty());
+}
+
 TEST(TakeSwallowedCauses, TakesTheBestOfThoseThatItTries) {
   BentCalibration toy;
   toy.file->screened = {{role::kX, 40.0}, {role::kY, 30.0}, {role::kZ, 20.0}};

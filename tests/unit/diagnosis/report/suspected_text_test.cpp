@@ -37,6 +37,7 @@ TEST(SuspectedTest, SaysWhyAndHowLikely) {
   EXPECT_THAT(Suspected(Doubt::kMovedNumber, 0.98).verdict_sentence,
               HasSubstr("all but 2 % of healthy rigs"));
   EXPECT_THAT(Suspected(Doubt::kCutOff, 0.9).verdict_sentence, HasSubstr("a chain of causes"));
+  EXPECT_THAT(Suspected(Doubt::kStopped, 0.99).verdict_sentence, HasSubstr("search was stopped"));
   EXPECT_THAT(Suspected(Doubt::kResidualIsLeft, 0.99).verdict_sentence,
               HasSubstr("a residual is left"));
 }
@@ -45,6 +46,28 @@ TEST(SuspectedTest, IsNotSaidOfANamedCause) {
   const DiagnosisReport named = BuildReport(Found(effect::Id::kEddyCurrent, "de_x"));
   EXPECT_THAT(named.suspected_because, IsEmpty());
   EXPECT_THAT(named.verdict_sentence, Not(HasSubstr("Suspected")));
+}
+
+/// A search that ended before it had a cause; `nat` is the evidence of the best candidate.
+DiagnosisReport StoppedWithout(double nat) {
+  DiagnosisResult found = Found(effect::Id::kEddyCurrent, "de_x");
+  found.answer.verdict = Verdict::kUnknown;
+  found.answer.causes.clear();
+  found.answer.stopped = true;
+  found.answer.candidates.front().score = nat;
+  return BuildReport(found);
+}
+
+TEST(StoppedTest, SaysThatNothingIsProvenAndWhatIsLikeliest) {
+  const DiagnosisReport strong = StoppedWithout(40.0);
+  EXPECT_THAT(strong.verdict_sentence,
+              AllOf(HasSubstr("search was stopped"), HasSubstr("nothing ruled out"),
+                    HasSubstr("eddy_current at de_x, 40 nat")));
+  EXPECT_THAT(strong.verdict_sentence, Not(HasSubstr("A residual is left")));
+  EXPECT_THAT(strong.headline, HasSubstr("Stopped"));
+  EXPECT_THAT(strong.action, HasSubstr("Diagnose again"));
+  EXPECT_THAT(strong.next_experiment, HasSubstr("same records to the end"));
+  EXPECT_THAT(StoppedWithout(2.0).verdict_sentence, Not(HasSubstr("likeliest")));
 }
 
 TEST(OutsideToleranceTest, NamesEveryNumberBeyondThreeTolerances) {
