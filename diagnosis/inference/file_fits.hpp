@@ -25,6 +25,13 @@ struct JointFit {
   double cost{std::numeric_limits<double>::infinity()};  ///< [nat]
 };
 
+/// Causes, held to the file on few rows: where a joint fit goes on from.
+struct JointStart {
+  std::vector<Hypothesis> causes;
+  Point held;
+  double cost{std::numeric_limits<double>::infinity()};  ///< [nat] on the few rows
+};
+
 class FileFits {
  public:
   FileFits() = default;
@@ -43,8 +50,9 @@ class FileFits {
   [[nodiscard]] virtual std::vector<Candidate> Screened(const View& view,
                                                         const JointFit& base) const = 0;
   /// With a cause more; of infinite cost where the model cannot follow.
-  [[nodiscard]] virtual JointFit With(const View& view, const JointFit& base,
-                                      const Hypothesis& cause) const = 0;
+  [[nodiscard]] virtual JointStart Begin(const View& view, const JointFit& base,
+                                         const Hypothesis& cause) const = 0;
+  [[nodiscard]] virtual JointFit Finish(const JointStart& begun) const = 0;
 };
 
 }  // namespace levitas::diagnosis

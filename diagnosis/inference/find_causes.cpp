@@ -39,7 +39,7 @@ void SlowDown(ObservedLandscape& landscape, const SelectionRules& rules, std::si
       return;
     }
     found.point = fit.point;
-    if (!rules.effort.first_cause_only) RefineLastShape(landscape, fit, found);
+    RefineLastShape(landscape, fit, found);
     found.calibrated_runs = landscape.RunsAt(found.calibrated);
   }
 }

@@ -61,36 +61,31 @@ std::vector<Candidate> RecordFileFits::Screened(const View& view, const JointFit
   return Screen(Evidence(view.problem, held_, base.causes), search_.hypotheses());
 }
 
-JointFit RecordFileFits::With(const View& view, const JointFit& base,
-                              const Hypothesis& cause) const {
-  std::vector<Hypothesis> causes = base.causes;
-  causes.push_back(cause);
-  const Refined nearest = Nearest(view, base, causes);
-  if (!nearest.ok) return {};
-  const Refined held = fine_.Approach(nearest.point, kWhiteningOrder, kHeldPasses, causes);
-  return Free(held.ok ? held.point : nearest.point, causes);
+JointStart RecordFileFits::Begin(const View& view, const JointFit& base,
+                                 const Hypothesis& cause) const {
+  constexpr double kAlike = 1.0;  // [nat]
+  JointStart begun{base.causes, {}};
+  begun.causes.push_back(cause);
+  const std::vector<double> seen = cautious_.Solve(view.problem, begun.causes);
+  double first = begun.cost;
+  for (const double times : {0.0, 4.0, 1.0, 2.0}) {
+    Refined fit = coarse_.Approach(WithCauseAt(base.held, seen, cause, times), kWhiteningOrder,
+                                   kHeldPasses, begun.causes);
+    const double cost = fit.ok ? coarse_.Misfit(fit.point, kWhiteningOrder, begun.causes)
+                               : std::numeric_limits<double>::infinity();
+    if (cost < begun.cost) {
+      begun.cost = cost;
+      begun.held = std::move(fit.point);
+    }
+    if (times == 0.0) first = cost;
+    if (times == 4.0 && std::abs(cost - first) < kAlike) break;
+  }
+  return begun;
 }
 
-Refined RecordFileFits::Nearest(const View& view, const JointFit& base,
-                                const std::vector<Hypothesis>& causes) const {
-  constexpr double kAlike = 1.0;  // [nat]
-  const std::vector<double> seen = cautious_.Solve(view.problem, causes);
-  Refined nearest;
-  double least = std::numeric_limits<double>::infinity();
-  double first = least;
-  for (const double times : {0.0, 4.0, 1.0, 2.0}) {
-    Refined fit = coarse_.Approach(WithCauseAt(base.held, seen, causes.back(), times),
-                                   kWhiteningOrder, kHeldPasses, causes);
-    const double misfit = fit.ok ? coarse_.Misfit(fit.point, kWhiteningOrder, causes)
-                                 : std::numeric_limits<double>::infinity();
-    if (misfit < least) {
-      least = misfit;
-      nearest = std::move(fit);
-    }
-    if (times == 0.0) first = misfit;
-    if (times == 4.0 && std::abs(misfit - first) < kAlike) break;
-  }
-  return nearest;
+JointFit RecordFileFits::Finish(const JointStart& begun) const {
+  const Refined held = fine_.Approach(begun.held, kWhiteningOrder, kHeldPasses, begun.causes);
+  return Free(held.ok ? held.point : begun.held, begun.causes);
 }
 
 }  // namespace levitas::diagnosis

@@ -27,16 +27,14 @@ class RecordFileFits final : public FileFits {
   [[nodiscard]] View LineariseAt(const Point& held) const override;
   [[nodiscard]] std::vector<Candidate> Screened(const View& view,
                                                 const JointFit& base) const override;
-  [[nodiscard]] JointFit With(const View& view, const JointFit& base,
-                              const Hypothesis& cause) const override;
+  /// From the best of four sizes of the cause: none, as the screen sees it, and two and four times
+  /// as large, since a straight line sees too little of what moves a lightly damped mode by more
+  /// than its width. Where none and the largest end alike, the others would, too.
+  [[nodiscard]] JointStart Begin(const View& view, const JointFit& base,
+                                 const Hypothesis& cause) const override;
+  [[nodiscard]] JointFit Finish(const JointStart& begun) const override;
 
  private:
-  /// From the best of four sizes of the last cause: none, as the screen sees it, and two and four
-  /// times as large, since a straight line sees too little of what moves a lightly damped mode by
-  /// more than its width. Where none and the largest end alike, the others would, too.
-  [[nodiscard]] Refined Nearest(const View& view, const JointFit& base,
-                                const std::vector<Hypothesis>& causes) const;
-
   const Search& search_;
   std::vector<Term> held_;
   Search cautious_;

@@ -50,7 +50,9 @@ struct FileScript {
   Ending anew;                                          ///< without a cause, from the file on
   std::map<EffectSet, Ending> with;                     ///< from the file on
   std::vector<std::pair<effect::Id, double>> screened;  ///< about the file [nat], best first
+  std::map<EffectSet, double> begun;                    ///< [nat] else as `with` ends
   std::vector<EffectSet> tried;                         ///< with a cause more, in order
+  std::vector<EffectSet> finished;                      ///< of these
   std::vector<Point> linearised;                        ///< about the file
   int made{};                                           ///< how often these fits were asked for
 };
@@ -252,12 +254,20 @@ class ToyFileFits final : public FileFits {
     }
     return candidates;
   }
-  [[nodiscard]] JointFit With(const View& view, const JointFit& base,
-                              const Hypothesis& cause) const override {
-    std::vector<Hypothesis> causes = base.causes;
-    causes.push_back(cause);
-    script_->tried.push_back(ToyObserved::EffectsOf(causes));
-    return Made(script_->with, view.point, causes);
+  [[nodiscard]] JointStart Begin(const View& view, const JointFit& base,
+                                 const Hypothesis& cause) const override {
+    JointStart start{base.causes, view.point};
+    start.causes.push_back(cause);
+    const EffectSet effects = ToyObserved::EffectsOf(start.causes);
+    script_->tried.push_back(effects);
+    const auto known = script_->begun.find(effects);
+    start.cost = known == script_->begun.end() ? Made(script_->with, start.held, start.causes).cost
+                                               : known->second;
+    return start;
+  }
+  [[nodiscard]] JointFit Finish(const JointStart& begun) const override {
+    script_->finished.push_back(ToyObserved::EffectsOf(begun.causes));
+    return Made(script_->with, begun.held, begun.causes);
   }
 
  private:

@@ -5,12 +5,29 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/unit/diagnosis/toy_observed.hpp"
+#include "tests/unit/diagnosis/trajectories.hpp"
 
 namespace levitas::diagnosis {
 namespace {
 
 using testing::IsEmpty;
+
+// A line of three times the noise's power leaves twice the noise, and a filter foretells most of
+// it. Of one that has as much power as the noise no filter could take more than a root of two.
+TEST(IsLoud, IsALineOfFarMorePowerThanTheNoise) {
+  constexpr std::size_t kSamples = 6'000;
+  for (const auto& [power, loud] : {std::pair{0.0, false}, {1.0, false}, {3.0, true}}) {
+    const Trajectory run =
+        NoiseRun(20261130, kSamples, [power = power](std::size_t, SamplePoint& m) {
+          m.innovation_m[1] +=
+              static_cast<float>(Sine(kNoise * std::sqrt(2.0 * power), 91.0, m.time_s));
+        });
+    EXPECT_EQ(IsLoud({run}, TheRig().axes), loud) << power;
+  }
+}
 
 /// Behind the filter nothing is decisive; without one the true cause is worth 197 nat. It costs
 /// 500 nat less than anything else.

@@ -48,5 +48,24 @@ TEST(RecordLandscape, ScreensAndSolvesWithTheShapesWhereItIsLinearised) {
   EXPECT_EQ(fit.point.shapes, other.shapes);
 }
 
+// Where calibration went, the file is not.
+TEST(RecordLandscape, KnowsTheFilesNumbersBesideTheCalibratedOnes) {
+  const RestLandscape& rest = FourTolerances();
+  const std::size_t offset = rest.TermOf(Id::kSensorOffset, "de_x");
+  EXPECT_EQ(rest.landscape.FileNumbers().theta[offset], 0.0);
+  EXPECT_EQ(rest.landscape.view().point.theta[offset], 4.0 * kOffsetTolerance);
+}
+
+// Noise of 1 um on every probe, which the slow observer follows by some per cent at most.
+TEST(RecordLandscape, FindsNothingLoudNorLostInNoise) {
+  const RestLandscape& rest = NothingWrong();
+  const Point& at = rest.landscape.view().point;
+  EXPECT_FALSE(rest.landscape.IsLoudAt(at));
+  EXPECT_FALSE(rest.landscape.ModelDivergesAt(at));
+  const Whitener plain = rest.landscape.PlainFilterOf(*rest.landscape.RunsAt(at));
+  ASSERT_EQ(plain.filter.size(), rest.landscape.rig().axes);
+  for (const auto& axis : plain.filter) EXPECT_NEAR(1.0 / axis.front(), kHumNoise, 0.1 * kHumNoise);
+}
+
 }  // namespace
 }  // namespace levitas::diagnosis

@@ -202,6 +202,19 @@ TEST(TakeSwallowedCauses, TriesWhatWasFoundBeforeOnce) {
   EXPECT_THAT(toy.file->tried, ElementsAre(kOneX, EffectSet{role::kY}));
 }
 
+// On few rows Y begins 99 or 101 nat behind X. It would end ahead.
+TEST(TakeSwallowedCauses, FinishesWhatBeginsNearTheBest) {
+  for (const auto& [behind, taken] : {std::pair{99.0, role::kY}, std::pair{101.0, role::kX}}) {
+    BentCalibration toy;
+    toy.file->screened = {{role::kX, 40.0}, {role::kY, 30.0}};
+    toy.file->begun = {{kOneX, 500.0}, {EffectSet{role::kY}, 500.0 + behind}};
+    toy.file->with[kOneX] = {kWithout - 100.0, 0.0};
+    toy.file->with[EffectSet{role::kY}] = {kWithout - 200.0, 0.0};
+    EXPECT_EQ(Named(Take(toy).found), EffectSet{taken}) << behind;
+    EXPECT_EQ(toy.file->finished.size(), behind < 100.0 ? 2U : 1U);
+  }
+}
+
 TEST(TakeSwallowedCauses, FitsNothingMoreOnceASearchIsToEnd) {
   OneSwallowed toy;
   toy.stop = true;
@@ -347,6 +360,7 @@ TEST(TakeSwallowedCauses, ReplacesACalibrationThatHadLostItsWayAndItsCauses) {
     EXPECT_THAT(end.found.causes, IsEmpty());
     EXPECT_EQ(toy.NumberAt(end.found.calibrated), 0.0);
     EXPECT_EQ(end.found.point, end.found.calibrated);
+    EXPECT_THAT(end.found.refitted, IsEmpty()) << "weighed about the lost calibration";
     EXPECT_THAT(toy.observed, IsEmpty());
   }
 }
