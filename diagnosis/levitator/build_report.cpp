@@ -14,9 +14,15 @@
 #include "diagnosis/levitator/words.hpp"
 #include "diagnosis/report/affected_part.hpp"
 #include "diagnosis/report/report_text.hpp"
+#include "plant_sim/effect/catalogue.hpp"
+#include "plant_sim/effect/placed_id.hpp"
 
 namespace levitas::levitator {
 namespace {
+
+std::string NameOf(std::size_t cause) {
+  return std::string(effect::At(Causes()[cause].effect).name);
+}
 
 /// A candidate whose parameters include all of a named cause's is that cause with one more free
 /// parameter, not a tie.
@@ -35,8 +41,8 @@ bool IsTie(const Found& found, const Score& score, std::size_t k) {
 /// A candidate stands in the place of the named cause it does most for.
 std::string ReasonOf(const Score& score, const std::vector<diagnosis::ReportTie>& ties) {
   if (score.named || score.instead_of >= Causes().size()) return {};
-  const std::string& effect = Causes()[score.cause].effect;
-  const std::string& named = Causes()[score.instead_of].effect;
+  const std::string effect = NameOf(score.cause);
+  const std::string named = NameOf(score.instead_of);
   const bool tied = std::any_of(ties.begin(), ties.end(), [&](const diagnosis::ReportTie& tie) {
     return tie.cause == named &&
            std::find(tie.others.begin(), tie.others.end(), effect) != tie.others.end();
@@ -48,7 +54,7 @@ std::string ReasonOf(const Score& score, const std::vector<diagnosis::ReportTie>
 
 std::string PlaceOf(const Found& found, const diagnosis::DiagnosisReport& report) {
   if (!found.causes.empty()) {
-    return std::string(Table()[Causes()[found.causes.front()].moves.front()].place);
+    return std::string(effect::Name(effect::PlaceOf(Causes()[found.causes.front()].effect)));
   }
   if (report.verdict == diagnosis::Verdict::kNone) return "";
   return diagnosis::PlaceOfResidual(report.residual.coherent_with);
@@ -58,19 +64,19 @@ std::string PlaceOf(const Found& found, const diagnosis::DiagnosisReport& report
 
 void AddCauses(const Found& found, diagnosis::DiagnosisReport& report) {
   for (const std::size_t c : found.causes) {
-    report.causes.push_back({Causes()[c].effect, Causes()[c].where});
-    report.ties.push_back({Causes()[c].effect, {}});
+    report.causes.push_back({NameOf(c), Causes()[c].where});
+    report.ties.push_back({NameOf(c), {}});
   }
   for (const Score& score : found.scores) {
     for (std::size_t k = 0; k < found.causes.size(); ++k) {
-      if (IsTie(found, score, k)) report.ties[k].others.push_back(Causes()[score.cause].effect);
+      if (IsTie(found, score, k)) report.ties[k].others.push_back(NameOf(score.cause));
     }
   }
   if (!report.ties.empty()) report.also_possible = report.ties.front().others;
   for (const Score& score : found.scores) {
     const Cause& cause = Causes()[score.cause];
     diagnosis::ReportCandidate& candidate = report.candidates.emplace_back();
-    candidate.effect = cause.effect;
+    candidate.effect = NameOf(score.cause);
     candidate.place = cause.where;
     candidate.evidence_nat = score.nat;
     candidate.refitted = score.refitted;

@@ -1,14 +1,16 @@
 #include "diagnosis/levitator/causes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace levitas::levitator {
 namespace {
 
+using effect::Id;
+
 void AddCause(const char* where, std::vector<std::size_t> moves, std::vector<Cause>& causes) {
-  causes.push_back({std::string(Table()[moves.front()].effect), where, std::move(moves), 0.0});
+  const effect::Id effect = Table()[moves.front()].effect;
+  causes.push_back({effect, where, std::move(moves), 0.0});
 }
 
 /// Of the loop, the coils, what their current does, and their probes.
@@ -69,24 +71,30 @@ std::vector<Cause> Make() {
   return causes;
 }
 
-using Group = std::array<std::string_view, 5>;
-constexpr std::array kGroups{
-    Group{"current_gain", "rotor_mass", "sensor_offset", "current_sensor_gain", "force_exponent"},
-    Group{"supply_voltage", "coil_resistance", "coil_inductance", "current_sensor_gain", ""},
-    Group{"displacement_stiffness", "coupling_stiffness", "sensor_gain", "static_load", ""},
-    Group{"extra_delay", "current_sensor_bandwidth", "eddy_current", "", ""},
-    Group{"inductance_profile", "coil_inductance", "magnetic_saturation", "", ""},
-    Group{"voltage_drop", "command_offset", "drive_nonlinearity", "supply_voltage", ""},
-    Group{"viscous_damping", "dry_friction", "sensor_bandwidth", "", ""}};
+/// Effects that do much the same to the data by their physics.
+using Group = std::vector<Id>;
+const std::vector<Group>& Groups() {
+  static const std::vector<Group> kGroups{
+      {Id::kForceConstant, Id::kRotorMass, Id::kSensorOffset, Id::kCurrentSensorGain,
+       Id::kForceExponent},
+      {Id::kSupplyVoltage, Id::kCoilResistance, Id::kCoilInductance, Id::kCurrentSensorGain},
+      {Id::kDisplacementStiffness, Id::kCouplingStiffness, Id::kSensorGain, Id::kStaticLoad},
+      {Id::kExtraDelay, Id::kCurrentSensorBandwidth, Id::kEddyCurrent},
+      {Id::kInductanceProfile, Id::kCoilInductance, Id::kMagneticSaturation},
+      {Id::kVoltageDrop, Id::kCommandOffset, Id::kDriveNonlinearity, Id::kSupplyVoltage},
+      {Id::kViscousDamping, Id::kDryFriction, Id::kSensorBandwidth},
+  };
+  return kGroups;
+}
 
-bool Has(const Group& group, const std::string& effect) {
+bool Has(const Group& group, Id effect) {
   return std::find(group.begin(), group.end(), effect) != group.end();
 }
 
 }  // namespace
 
-bool Alike(const std::string& one, const std::string& other) {
-  return one != other && std::any_of(kGroups.begin(), kGroups.end(), [&](const Group& group) {
+bool Alike(Id one, Id other) {
+  return one != other && std::any_of(Groups().begin(), Groups().end(), [&](const Group& group) {
            return Has(group, one) && Has(group, other);
          });
 }

@@ -13,7 +13,7 @@
 namespace levitas::levitator {
 
 struct Cause {
-  std::string effect;
+  effect::Id effect{};
   std::string where;  ///< "amplifier", "magnet: force" ...
   std::vector<std::size_t> moves;
   double log_prior{};
@@ -23,6 +23,6 @@ struct Cause {
 
 /// Whether two effects do much the same to the data by their physics, so that one is always tried
 /// in the other's place: the weight is carried by force constant, mass, gap and current alike.
-[[nodiscard]] bool Alike(const std::string& one, const std::string& other);
+[[nodiscard]] bool Alike(effect::Id one, effect::Id other);
 
 }  // namespace levitas::levitator

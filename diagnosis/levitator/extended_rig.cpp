@@ -10,6 +10,7 @@
 #include "diagnosis/report/effect_entry.hpp"
 #include "diagnosis/report/extended_rig.hpp"
 #include "numerics/normal_distribution.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::levitator {
 namespace {
@@ -81,9 +82,9 @@ std::string Comments(const Found& found) {
     for (const std::size_t i : Causes()[c].moves) {
       const Row& row = Table()[i];
       const double spread = numerics::kInterval90 * found.extended.deviation[i];
-      text += fmt::format("# {} {} = {:.5g} {} ({:.5g} to {:.5g}){}\n", row.effect, row.name,
-                          found.extended.theta[i], row.unit, found.extended.theta[i] - spread,
-                          found.extended.theta[i] + spread,
+      text += fmt::format("# {} {} = {:.5g} {} ({:.5g} to {:.5g}){}\n", effect::At(row.effect).name,
+                          row.name, found.extended.theta[i], row.unit,
+                          found.extended.theta[i] - spread, found.extended.theta[i] + spread,
                           InTheModel(i) ? "" : ": the simulated rig has no key for it");
     }
   }

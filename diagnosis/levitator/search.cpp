@@ -1,11 +1,14 @@
 #include "diagnosis/levitator/search.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 
 #include "diagnosis/inference/diagnose.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::levitator {
 namespace {
@@ -134,7 +137,8 @@ class ForwardSelection {
   void Tell(std::size_t cause) const {
     if (!settings_.progress) return;
     const double share = 0.1 + 0.06 * static_cast<double>(set_.size());
-    settings_.progress(std::min(0.7, share), "found " + Causes()[cause].effect);
+    settings_.progress(std::min(0.7, share),
+                       fmt::format("found {}", effect::At(Causes()[cause].effect).name));
   }
 
   Fitter fitter_;

@@ -6,10 +6,15 @@
 
 #include "diagnosis/levitator/causes.hpp"
 #include "diagnosis/report/advice.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 #include "tests/unit/levitator/rig.hpp"
 
 namespace levitas::levitator {
 namespace {
+
+std::string NameOf(std::size_t cause) {
+  return std::string(effect::At(Causes()[cause].effect).name);
+}
 
 /// Two seconds of a coil that is modelled exactly, but for the noise of its probe.
 diagnosis::DiagnosisReport ReportOf(const CauseSet& causes) {
@@ -30,20 +35,20 @@ TEST(LevitatorReport, SaysThePlaceOfEveryCauseAlsoOfThoseNoRotorHas) {
   for (std::size_t c = 0; c < Causes().size(); ++c) {
     const diagnosis::DiagnosisReport report = ReportOf({c});
     ASSERT_EQ(report.causes.size(), 1U);
-    EXPECT_EQ(report.causes[0].effect, Causes()[c].effect);
-    EXPECT_EQ(report.place, Table()[Causes()[c].moves.front()].place) << Causes()[c].effect;
-    EXPECT_NE(report.place, "") << Causes()[c].effect;
+    EXPECT_EQ(report.causes[0].effect, NameOf(c));
+    EXPECT_EQ(report.place, effect::Name(effect::At(Causes()[c].effect).place)) << NameOf(c);
+    EXPECT_NE(report.place, "") << NameOf(c);
   }
 }
 
 TEST(LevitatorReport, SaysEveryCauseInWordsWithWhatToCheck) {
   for (std::size_t c = 0; c < Causes().size(); ++c) {
     const diagnosis::DiagnosisReport report = ReportOf({c});
-    const effect::Words* words = diagnosis::FindWords(report, Causes()[c].effect);
-    ASSERT_NE(words, nullptr) << Causes()[c].effect;
-    EXPECT_NE(report.headline.find("[" + Causes()[c].effect + "]"), std::string::npos);
+    const effect::Words* words = diagnosis::FindWords(report, NameOf(c));
+    ASSERT_NE(words, nullptr) << NameOf(c);
+    EXPECT_NE(report.headline.find("[" + NameOf(c) + "]"), std::string::npos);
     EXPECT_NE(report.action.find(words->check), std::string::npos) << report.action;
-    EXPECT_FALSE(report.parameters.empty()) << Causes()[c].effect;
+    EXPECT_FALSE(report.parameters.empty()) << NameOf(c);
   }
 }
 
@@ -60,7 +65,7 @@ TEST(LevitatorReport, TiesACandidateThatExplainsNearlyAsMuchInACausesPlace) {
   Found found;
   const auto index = [](const std::string& effect) {
     for (std::size_t c = 0; c < Causes().size(); ++c) {
-      if (Causes()[c].effect == effect) return c;
+      if (NameOf(c) == effect) return c;
     }
     return Causes().size();
   };
@@ -74,12 +79,12 @@ TEST(LevitatorReport, TiesACandidateThatExplainsNearlyAsMuchInACausesPlace) {
                             .refitted = refitted,
                             .instead_of = named});
   };
-  add("current_gain", 2.0, true);
+  add("force_constant", 2.0, true);
   add("static_load", 40.0, true);
   add("sensor_gain", 2.0, false);  // from the linearised model alone
   diagnosis::DiagnosisReport report;
   AddCauses(found, report);
-  EXPECT_EQ(report.also_possible, std::vector<std::string>{"current_gain"});
+  EXPECT_EQ(report.also_possible, std::vector<std::string>{"force_constant"});
   ASSERT_EQ(report.candidates.size(), 4U);
   EXPECT_EQ(report.candidates[1].reason, "not separable from rotor_mass");
   EXPECT_EQ(report.candidates[2].reason, "explains 40 nat less than rotor_mass in its place");
