@@ -2,19 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace levitas::levitator {
 namespace {
 
+using diagnosis::Hypothesis;
 using effect::Id;
 
-void AddCause(const char* where, std::vector<std::size_t> moves, std::vector<Cause>& causes) {
-  const effect::Id effect = Table()[moves.front()].effect;
-  causes.push_back({effect, where, std::move(moves), 0.0});
+void AddCause(const char* where, std::vector<std::size_t> moves, std::vector<Hypothesis>& causes) {
+  Hypothesis& cause = causes.emplace_back();
+  cause.effect = Table()[moves.front()].effect;
+  cause.place = where;
+  cause.terms = std::move(moves);
 }
 
 /// Of the loop, the coils, what their current does, and their probes.
-void AddCoilCauses(std::vector<Cause>& causes) {
+void AddCoilCauses(std::vector<Hypothesis>& causes) {
   AddCause("whole rig", {kDelay}, causes);
   AddCause("both coils", {kSupply}, causes);
   AddCause("both coils", {kResistance}, causes);
@@ -42,7 +46,7 @@ void AddCoilCauses(std::vector<Cause>& causes) {
 }
 
 /// Of the force over current and place, the position sensor and the ball.
-void AddBallCauses(std::vector<Cause>& causes) {
+void AddBallCauses(std::vector<Hypothesis>& causes) {
   AddCause("ball_x", {kForce}, causes);
   AddCause("ball_x", {kForceDecay}, causes);
   AddCause("both coils", {kForceExponent}, causes);
@@ -58,12 +62,12 @@ void AddBallCauses(std::vector<Cause>& causes) {
   AddCause("ball_x", {kSpring}, causes);
 }
 
-std::vector<Cause> Make() {
-  std::vector<Cause> causes;
+std::vector<Hypothesis> Make() {
+  std::vector<Hypothesis> causes;
   AddCoilCauses(causes);
   AddBallCauses(causes);
-  for (Cause& cause : causes) {
-    const auto same = std::count_if(causes.begin(), causes.end(), [&](const Cause& other) {
+  for (Hypothesis& cause : causes) {
+    const auto same = std::count_if(causes.begin(), causes.end(), [&](const Hypothesis& other) {
       return other.effect == cause.effect;
     });
     cause.log_prior = -std::log(static_cast<double>(same));
@@ -99,8 +103,8 @@ bool Alike(Id one, Id other) {
          });
 }
 
-const std::vector<Cause>& Causes() {
-  static const std::vector<Cause> kCauses = Make();
+const std::vector<diagnosis::Hypothesis>& Causes() {
+  static const std::vector<Hypothesis> kCauses = Make();
   return kCauses;
 }
 

@@ -144,8 +144,8 @@ diagnosis::CalibratedValue CalibratedOf(const configuration::RigFile& rig, const
 std::vector<diagnosis::NamedParameter> ReportParameters(const configuration::RigFile& rig,
                                                         const Theta& origin, const Found& found) {
   std::vector<diagnosis::NamedParameter> parameters;
-  for (const std::size_t c : found.causes) {
-    for (const std::size_t i : Causes()[c].moves) {
+  for (const diagnosis::Hypothesis& cause : found.causes) {
+    for (const std::size_t i : cause.terms) {
       parameters.push_back(ParameterOf(rig, origin, i, found.extended));
     }
   }
@@ -155,8 +155,8 @@ std::vector<diagnosis::NamedParameter> ReportParameters(const configuration::Rig
 std::vector<diagnosis::CalibratedValue> ReportCalibration(const configuration::RigFile& rig,
                                                           const Theta& origin, const Found& found) {
   std::vector<bool> named(kParameters, false);
-  for (const std::size_t c : found.causes) {
-    for (const std::size_t i : Causes()[c].moves) named[i] = true;
+  for (const diagnosis::Hypothesis& cause : found.causes) {
+    for (const std::size_t i : cause.terms) named[i] = true;
   }
   std::vector<diagnosis::CalibratedValue> calibrated;
   for (std::size_t i = 0; i < kParameters; ++i) {

@@ -13,19 +13,16 @@
 namespace levitas::levitator {
 namespace {
 
-std::size_t CauseOf(effect::Id effect) {
-  const auto& causes = Causes();
-  const auto found = std::find_if(causes.begin(), causes.end(),
-                                  [&](const Cause& cause) { return cause.effect == effect; });
-  return static_cast<std::size_t>(found - causes.begin());
+const diagnosis::Hypothesis& CauseOf(effect::Id effect) {
+  return *std::ranges::find(Causes(), effect, &diagnosis::Hypothesis::effect);
 }
 
 TEST(Causes, MoveParametersOfTheTableAndPayForTheirPlaces) {
-  for (const Cause& cause : Causes()) {
-    ASSERT_FALSE(cause.moves.empty());
-    EXPECT_EQ(cause.effect, Table()[cause.moves.front()].effect);
+  for (const diagnosis::Hypothesis& cause : Causes()) {
+    ASSERT_FALSE(cause.terms.empty());
+    EXPECT_EQ(cause.effect, Table()[cause.terms.front()].effect);
     double prior = 0.0;
-    for (const Cause& other : Causes()) {
+    for (const diagnosis::Hypothesis& other : Causes()) {
       if (other.effect == cause.effect) prior += std::exp(other.log_prior);
     }
     EXPECT_NEAR(prior, 1.0, 1e-12) << effect::At(cause.effect).name;
@@ -34,9 +31,12 @@ TEST(Causes, MoveParametersOfTheTableAndPayForTheirPlaces) {
 
 TEST(Causes, ReachEveryParameter) {
   for (std::size_t i = 0; i < kParameters; ++i) {
-    EXPECT_TRUE(std::any_of(Causes().begin(), Causes().end(), [&](const Cause& cause) {
-      return std::find(cause.moves.begin(), cause.moves.end(), i) != cause.moves.end();
-    })) << effect::At(Table()[i].effect).name;
+    EXPECT_TRUE(std::any_of(Causes().begin(), Causes().end(),
+                            [&](const diagnosis::Hypothesis& cause) {
+                              return std::find(cause.terms.begin(), cause.terms.end(), i) !=
+                                     cause.terms.end();
+                            }))
+        << effect::At(Table()[i].effect).name;
   }
 }
 
