@@ -1,7 +1,8 @@
 #pragma once
 // The report of a levitator's diagnosis: the same plain data as for a rotor.
 //
-// Place    that of the first cause in the catalogue of effects.
+// Place    that of the first cause's parameter (parameters.hpp). Effects of voltage-driven coils
+//          are not in the catalogue of effects, which knows the places of a rotor's effects alone.
 // Ties     of every named cause: candidates that are less than the decisive evidence, or a share of
 //          the cause's, behind it in its place.
 // Thread   any; pure.

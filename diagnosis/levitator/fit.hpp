@@ -15,7 +15,8 @@
 
 namespace levitas::levitator {
 
-using CauseSet = std::vector<diagnosis::Hypothesis>;
+/// Indices into Causes().
+using CauseSet = std::vector<std::size_t>;
 
 struct Fitted {
   Theta theta;

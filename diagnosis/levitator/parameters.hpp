@@ -13,8 +13,6 @@
 #include <string_view>
 #include <vector>
 
-#include "plant_sim/effect/effect_config.hpp"
-
 namespace levitas::levitator {
 
 enum Parameter : std::size_t {
@@ -60,7 +58,8 @@ enum Parameter : std::size_t {
 enum class Side : unsigned char { kCoils, kMotion, kBoth };
 
 struct Row {
-  effect::Id effect{};
+  std::string_view effect;  ///< id of docs/effects.md where it has one
+  std::string_view place;
   std::string_view name;
   std::string_view unit;
   Side side;

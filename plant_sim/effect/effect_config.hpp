@@ -60,22 +60,6 @@ enum class Id : std::uint8_t {
   kForceConstant,
   kCommandOffset,
   kMagneticCoupling,
-  kSupplyVoltage,
-  kCoilResistance,
-  kCoilInductance,
-  kInductanceProfile,
-  kVoltageDrop,
-  kDriveNonlinearity,
-  kDriveAsymmetry,
-  kCoilHeating,
-  kMotionEmf,
-  kMutualInductance,
-  kCurrentSensorGain,
-  kCurrentSensorOffset,
-  kCurrentSensorBandwidth,
-  kForceExponent,
-  kViscousDamping,
-  kDryFriction,
 };
 
 /// Where in the loop it sits.
@@ -87,9 +71,7 @@ enum class Place : std::uint8_t {
   kSupport,
   kExternal,
   kGear,
-  kSensor,
-  kCoil,  ///< on a voltage, and its current probe
-  kBall   ///< between two magnets
+  kSensor
 };
 
 inline constexpr std::size_t kMaxParameters = 8;
