@@ -39,8 +39,6 @@ struct Descent {
   int refused = 0;
   double misfit{};  ///< [nat] at best.point, whitened by its own innovations
   double misfit_at_jacobian{std::numeric_limits<double>::infinity()};  ///< where it was taken
-  int creeping = 0;         ///< Jacobians in a row that gained little each
-  bool chords_help = true;  ///< the last step with the Jacobian of an earlier point gained enough
 };
 
 /// A shorter step in place of the one that was refused; false: enough were.
@@ -76,15 +74,6 @@ void StepOn(const Search& search, const std::vector<Term>& terms,
   d.best.evidence = Refiner::EvidenceOfSet(d.best.problem, terms, causes);
   d.damping.Accept();
   d.at.theta = search.Step(d.best.problem, causes, d.best.point.theta, d.damping.value());
-}
-
-/// Before another Jacobian is taken: whether the last few were worth theirs. A valley that bends,
-/// as one does of a model that lacks the cause, is crept along by two nat a Jacobian for a minute.
-bool Progresses(Descent& d) {
-  constexpr double kLittle = 5.0;  // [nat]
-  constexpr int kMostCreeping = 4;
-  d.creeping = d.misfit_at_jacobian - d.misfit < kLittle ? d.creeping + 1 : 0;
-  return d.creeping < kMostCreeping;
 }
 
 /// What runs leave behind a filter.
@@ -299,9 +288,7 @@ Refined Refiner::Approach(Point start, std::size_t whitening_order, int passes,
     // back: a Jacobian that has not lowered the misfit is not followed by another one.
     const bool settled = d.current || !(d.misfit < d.misfit_at_jacobian - kConverged);
     if (gained < kConverged && settled) break;
-    if (!d.current || gained > kFar) d.chords_help = gained > kConverged;
-    d.current = !d.slopes || gained > kFar || gained < kConverged || !d.chords_help;
-    if (d.current && !Progresses(d)) break;
+    d.current = !d.slopes || gained > kFar || gained < kConverged;
     StepOn(search_, terms_, causes, runs, d);
     if (search_.StopAsked()) break;
     ++pass;

@@ -24,8 +24,8 @@ bool IsAmong(const std::vector<Hypothesis>& causes, const Hypothesis& cause) {
   });
 }
 
-/// What is worth a fit on top of `found`: causes that were found about the calibrated numbers, whose
-/// own numbers may have gone the wrong way with those, and the best few of the screen.
+/// What is worth a fit on top of `found`: the best few of the screen, and causes that were found
+/// about the calibrated numbers, whose own numbers may have gone the wrong way with those.
 std::vector<Hypothesis> WorthAFit(const EvidenceLandscape& landscape,
                                   const std::vector<Candidate>& screened, const Judging& judging,
                                   const std::vector<Hypothesis>& before, const JointFit& found) {

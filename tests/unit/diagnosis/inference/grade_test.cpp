@@ -87,8 +87,8 @@ TEST(GradeOf, ALeaderFarAheadIsSuspectedInSpiteOfWhatIsLeft) {
   EXPECT_EQ(near.doubt, Doubt::kNothing);
 }
 
-// A force at a fixed frequency leaves a line of thousands of deviations, of which the best effect of
-// the vocabulary takes a few per cent.
+// A force at a fixed frequency leaves a line of thousands of deviations, of which the best effect
+// of the vocabulary takes a few per cent.
 TEST(GradeOf, ALeaderThatTakesAwayLessThanHalfIsNotSuspected) {
   for (const auto& [explained, verdict] :
        {std::pair{0.51, Verdict::kSuspected}, std::pair{0.49, Verdict::kUnknown},
