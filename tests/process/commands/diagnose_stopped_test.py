@@ -4,7 +4,6 @@ import json
 import os
 import pty
 import signal
-import subprocess
 import sys
 import threading
 import unittest
@@ -12,9 +11,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
-from waiting import LIMIT_S, until  # noqa: E402
+from lcm_network import Process  # noqa: E402
+from waiting import until  # noqa: E402
 
-BINARIES = Path(os.environ["LEVITAS_BINARIES"])
 RECORDS = Path(os.environ["LEVITAS_SOURCE"]) / "tests/data/records/unbalance"
 OTHER = 1
 
@@ -33,9 +32,8 @@ class Diagnosis:
     def __init__(self, folder):
         self.shown = b""
         ours, terminal = pty.openpty()
-        self.child = subprocess.Popen(
-            [str(BINARIES / "amb"), "diagnose", "--rig", "flexible_rotor", str(RECORDS / "standing.csv.xz"),
-             str(RECORDS / "spinning.csv.xz"), "--out", "answer"], cwd=folder, stdout=subprocess.PIPE, stderr=terminal)
+        self.program = Process(folder, "amb", "diagnose", "--rig", "flexible_rotor", RECORDS / "standing.csv.xz",
+                               RECORDS / "spinning.csv.xz", "--out", "answer", stderr=terminal)
         os.close(terminal)
         self.reader = threading.Thread(target=self.read, args=(ours,))
         self.reader.start()
@@ -50,13 +48,13 @@ class Diagnosis:
 
     def interrupt_while_calibrating(self):
         until(lambda: b"calibrating" in self.shown, "the search to begin", said=lambda: self.shown,
-              running=lambda: self.child.poll() is None)
-        self.child.send_signal(signal.SIGINT)
+              running=lambda: self.program.child.poll() is None)
+        self.program.send_signal(signal.SIGINT)
 
     def ended(self):
-        printed, _ = self.child.communicate(timeout=LIMIT_S)
+        status = self.program.status()
         self.reader.join()
-        return self.child.returncode, printed.decode()
+        return status, self.program.text
 
 
 class StoppedDiagnosis(unittest.TestCase):
@@ -65,7 +63,7 @@ class StoppedDiagnosis(unittest.TestCase):
         self.addCleanup(shared.cleanup)
         self.folder = Path(shared.name)
         self.diagnosis = Diagnosis(self.folder)
-        self.addCleanup(self.diagnosis.child.kill)
+        self.addCleanup(self.diagnosis.program.kill)
 
     def test_once_leaves_the_answer_so_far_which_neither_clears_nor_proves(self):
         self.diagnosis.interrupt_while_calibrating()
@@ -81,9 +79,9 @@ class StoppedDiagnosis(unittest.TestCase):
 
     def test_twice_ends_at_once_and_leaves_nothing(self):
         self.diagnosis.interrupt_while_calibrating()
-        child = self.diagnosis.child
+        child = self.diagnosis.program.child
         until(lambda: not catches_interrupts(child.pid), "the first to be noted", running=lambda: child.poll() is None)
-        child.send_signal(signal.SIGINT)
+        self.diagnosis.program.send_signal(signal.SIGINT)
         status, printed = self.diagnosis.ended()
         self.assertEqual((status, printed), (-signal.SIGINT, ""))
         self.assertFalse((self.folder / "answer/diagnosis.json").exists())
