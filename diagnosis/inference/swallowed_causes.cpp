@@ -133,13 +133,13 @@ bool TakeSwallowedCauses(ObservedLandscape& landscape, const SelectionRules& rul
     without = std::move(anew);
     CalibrateAnew(landscape, rules, without, found);
   }
-  if (!without.free.ok || landscape.StopAsked()) return false;
+  if (!without.free.ok) return false;
   JointFit with = without;
   if (!found.causes.empty()) {
     with.cost = std::min(with.cost, fits->Free(found.point, found.causes).cost);
   }
   with.held = landscape.FileNumbers();
-  while (with.causes.size() < rules.most_causes &&
+  while (with.causes.size() < rules.most_causes && !landscape.StopAsked() &&
          WentFar(terms, with.free.problem, with.free.point.theta, with.causes, tolerances)) {
     if (!AddOne(*fits, landscape, rules.judging, before, with)) break;
   }

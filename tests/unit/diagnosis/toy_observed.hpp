@@ -44,7 +44,7 @@ struct Ending {
   double number{};                                       ///< [tolerances]
 };
 
-/// What a test says of fits from the file, and what was asked of them.
+/// How fits from the file end, which a test says, and which of them were asked for.
 struct FileScript {
   std::map<EffectSet, Ending> free;                     ///< on from what was found
   Ending anew;                                          ///< without a cause, from the file on

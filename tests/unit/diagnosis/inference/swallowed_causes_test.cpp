@@ -328,6 +328,14 @@ TEST(TakeSwallowedCauses, KeepsACalibrationThatFitsBetterUnderTheObserverOfTheLa
   ExpectKeepsCalibration(toy);
 }
 
+// The other calibration was linearised to be weighed; what is ranked is what was found.
+TEST(TakeSwallowedCauses, GoesBackToWhatWasFoundOnceASearchIsToEnd) {
+  LostCalibration toy;
+  toy.misfit = [](const EffectSet&, double at_number) { return -at_number; };
+  toy.stop = true;
+  ExpectKeepsCalibration(toy);
+}
+
 TEST(TakeSwallowedCauses, KeepsACalibrationWhereNoOtherCanBeFollowed) {
   LostCalibration toy;
   toy.refused = {kNone};
