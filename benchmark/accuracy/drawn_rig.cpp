@@ -131,8 +131,10 @@ struct ScaleOf {
   double operator()(effect::TimingId /*id*/) const { return 1.0; }
   double operator()(effect::AmplifierId /*id*/) const { return 1.0; }
   double operator()(effect::MagnetId /*id*/) const { return 1.0; }
-  // No drawn rig has gears.
+  // No drawn rig has gears, coils on a voltage or a ball.
   double operator()(effect::GearId /*id*/) const { return 1.0; }
+  double operator()(effect::CoilId /*id*/) const { return 1.0; }
+  double operator()(effect::BallId /*id*/) const { return 1.0; }
 
   double operator()(effect::RotorId id) const {
     using effect::RotorId;

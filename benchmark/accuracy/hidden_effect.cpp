@@ -28,7 +28,7 @@ using effect::TimingId;
 /// All but those of teeth (hidden_gear_effect.hpp) and the jitter, which a rotor never shows.
 std::vector<Id> MakeIds() {
   std::vector<Id> ids;
-  for (const effect::Row& row : effect::Catalogue()) {
+  for (const effect::Row& row : effect::EntryRows()) {
     if (row.place != effect::Place::kGear && row.id != Id::kSampleJitter) ids.push_back(row.id);
   }
   return ids;
@@ -314,6 +314,12 @@ class Drawer {
   [[noreturn]] void Set(effect::GearId /*id*/) const {
     throw std::logic_error(fmt::format("{}: DrawGearEffect() draws it (hidden_gear_effect.hpp)",
                                        effect::At(entry_.id).name));
+  }
+  [[noreturn]] void Set(effect::CoilId /*id*/) const { RefuseOtherRigs(); }
+  [[noreturn]] void Set(effect::BallId /*id*/) const { RefuseOtherRigs(); }
+  [[noreturn]] void RefuseOtherRigs() const {
+    const effect::Row& row = effect::At(entry_.id);
+    throw std::logic_error(fmt::format("{}: {}", row.name, effect::InPlaceOfAnEntry(row)));
   }
 
   double size_;

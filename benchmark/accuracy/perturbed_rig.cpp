@@ -30,6 +30,8 @@ struct JoiningOf {
   Joining operator()(effect::TimingId /*id*/) const { return Joining::kStaysApart; }
   Joining operator()(effect::SupportId /*id*/) const { return Joining::kStaysApart; }
   Joining operator()(effect::GearId /*id*/) const { return Joining::kStaysApart; }
+  Joining operator()(effect::CoilId /*id*/) const { return Joining::kStaysApart; }
+  Joining operator()(effect::BallId /*id*/) const { return Joining::kStaysApart; }
 
   Joining operator()(effect::AmplifierId id) const {
     using effect::AmplifierId;

@@ -60,6 +60,8 @@ void PrintOne(const effect::Row& row) {
     fmt::print("  {:<22} {} ({} to {}{})\n", effect::FileKey(p), p.meaning, text(p.low),
                text(p.high), p.fallback ? ", default " + text(*p.fallback) : "");
   }
+  if (!effect::IsEntry(row))
+    fmt::print("  in a rig file          {}\n", effect::InPlaceOfAnEntry(row));
 }
 
 /// A JSON number, or a word for the two values that are none.
@@ -76,7 +78,8 @@ nlohmann::ordered_json RowJson(const effect::Row& row) {
                               {"meaning", row.meaning},
                               {"equation", row.equation},
                               {"signature", row.signature},
-                              {"source", row.source}};
+                              {"source", row.source},
+                              {"entry", effect::IsEntry(row)}};
   for (const effect::Parameter& p : row.parameters) {
     json["parameters"].push_back({{"name", p.stem},
                                   {"unit", p.si_suffix},
@@ -104,6 +107,11 @@ plant::PlantParameters RigFor(const effect::Row& row, const EffectsOptions& opti
 }
 
 void DrawOne(const effect::Row& row, const EffectsOptions& options, const std::string& path) {
+  if (!effect::IsEntry(row)) {
+    throw Problem(ExitStatus::kUsage,
+                  fmt::format("--picture: {} has none, since it is no entry of a rig file: {}",
+                              row.name, effect::InPlaceOfAnEntry(row)));
+  }
   const plant::PlantParameters rig = RigFor(row, options);
   svg::Write(path, signature::Picture(rig, plant::ClearOn(rig, row.id)));
 }
@@ -111,7 +119,7 @@ void DrawOne(const effect::Row& row, const EffectsOptions& options, const std::s
 void Draw(const EffectsOptions& options) {
   if (!options.picture_path.empty()) DrawOne(RowOf(options.id), options, options.picture_path);
   if (options.pictures_folder.empty()) return;
-  for (const effect::Row& row : effect::Catalogue()) {
+  for (const effect::Row& row : effect::EntryRows()) {
     DrawOne(row, options, fmt::format("{}/{}.svg", options.pictures_folder, row.name));
   }
 }

@@ -121,13 +121,22 @@ void DescribeValues(Visitor& v, const RigFile& rig, EffectConfig& entry) {
   if (!of_the_train) RefusePlane(v, rig, entry);
 }
 
+/// Of an effect that is no entry.
+std::string InPlaceOf(std::string_view name) {
+  const effect::Row* row = effect::Find(name);
+  return row == nullptr ? std::string() : effect::InPlaceOfAnEntry(*row);
+}
+
 void Describe(Visitor& v, const RigFile& rig, EffectConfig& entry) {
   std::vector<std::string_view> names;
-  for (const effect::Row& row : effect::Catalogue()) names.push_back(row.name);
-  auto index = static_cast<std::size_t>(entry.id);
-  v.Variant({"id", names, kRequired, "which effect; see docs/effects.md"}, index,
+  const auto rows = effect::EntryRows();
+  for (const effect::Row& row : rows) names.push_back(row.name);
+  const auto own =
+      std::ranges::find_if(rows, [&](const effect::Row& row) { return row.id == entry.id; });
+  auto index = static_cast<std::size_t>(own - rows.begin());
+  v.Variant({"id", names, kRequired, "which effect; see docs/effects.md", "", InPlaceOf}, index,
             [&](std::size_t chosen) {
-              entry.id = static_cast<effect::Id>(chosen);
+              entry.id = rows[chosen].id;
               DescribeValues(v, rig, entry);
             });
   v.Number({"strength", kOne, 0, 1, 1, "0 = the nominal plant, 1 = as given"}, entry.strength);

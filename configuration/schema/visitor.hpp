@@ -55,6 +55,8 @@ struct ChoiceField {
   /// Whose words they are ("rig pump"): a file written for another owner is one problem, not one
   /// for each of its words. Empty: words of the program itself.
   std::string_view owner{};
+  /// What to do instead of a word that is none of them, but is known elsewhere; empty: not known.
+  std::function<std::string(std::string_view)> elsewhere{};
 };
 
 struct ListField {

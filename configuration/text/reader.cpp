@@ -218,6 +218,9 @@ void Reader::Choice(const ChoiceField& field, std::size_t& index) {
   const std::size_t found = position(*text);
   if (found < words.size()) {
     index = found;
+  } else if (const std::string known = field.elsewhere ? field.elsewhere(*text) : "";
+             !known.empty()) {
+    Report(entry.value->place, entry.key, fmt::format("found {}; {}", *text, known));
   } else if (!field.owner.empty()) {
     ReportForeign(field, entry, Describe(*entry.value));
   } else {

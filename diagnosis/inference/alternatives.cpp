@@ -51,11 +51,12 @@ CauseSet BestAlternative(const EvidenceLandscape& landscape, const SelectionRule
   CauseSet best = leader;
   std::size_t tried = 0;
   for (Candidate& candidate : found.candidates) {
-    if (tried == rules.effort.alternatives ||
-        candidate.score < std::max(judging.decisive_nat, lead - near))
-      break;
-    if (candidate.refitted) continue;
-    ++tried;
+    const bool is_near = tried < rules.effort.alternatives &&
+                         candidate.score >= std::max(judging.decisive_nat, lead - near);
+    const bool is_alike = rules.alike && candidate.score >= 0.0 &&
+                          rules.alike(leader.causes.front().effect, candidate.effect);
+    if (candidate.refitted || !(is_near || is_alike)) continue;
+    if (is_near) ++tried;
     landscape.ReportProgress(0.78 + 0.03 * static_cast<double>(tried),
                              fmt::format("refitting {}", effect::At(candidate.effect).name));
     std::vector<Hypothesis> causes = leader.causes;
@@ -70,31 +71,82 @@ CauseSet BestAlternative(const EvidenceLandscape& landscape, const SelectionRule
   return best;
 }
 
-}  // namespace
-
-void RankCandidates(const EvidenceLandscape& landscape, const SelectionRules& rules,
-                    CauseSelection& found) {
-  landscape.ReportProgress(0.75, "ranking");
-  PutStrongestFirst(landscape, found);
+/// Every effect in the place of the first cause, on the linearisation.
+void ScreenInPlaceOfFirst(const EvidenceLandscape& landscape, CauseSelection& found) {
   const std::vector<Hypothesis> others = Without(found.causes, 0);
   found.candidates = landscape.Screen(others);
-  if (found.causes.empty() || (rules.effort.first_cause_only && !found.whitened_anew)) {
-    TakeRefitted(found);
-    SortByScore(found.candidates);
-    return;
-  }
   // The leader is the hypothesis that was chosen, at the place that was chosen.
   const Hypothesis& first = found.causes[0];
   for (Candidate& c : found.candidates) {
     if (c.effect != first.effect) continue;
     for (std::size_t i = 0; i < landscape.hypotheses().size(); ++i) {
       const Hypothesis& h = landscape.hypotheses()[i];
-      if (h.effect == c.effect && h.place == first.place) c.hypothesis = i;
+      if (AreSame(h, first)) c.hypothesis = i;
     }
     c.place = landscape.PlaceAt(found.point, first);
     c.score = landscape.GainOf(first, others);
   }
   SortByScore(found.candidates);
+}
+
+/// The weightiest first, each by what it adds to all others.
+void SortByGain(const EvidenceLandscape& landscape, CauseSelection& found) {
+  std::vector<std::pair<double, Hypothesis>> weighed;
+  for (std::size_t i = 0; i < found.causes.size(); ++i) {
+    weighed.emplace_back(landscape.GainOf(found.causes[i], Without(found.causes, i)),
+                         found.causes[i]);
+  }
+  std::stable_sort(weighed.begin(), weighed.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  found.causes.clear();
+  for (auto& [gain, cause] : weighed) found.causes.push_back(std::move(cause));
+}
+
+}  // namespace
+
+void RankCandidates(const EvidenceLandscape& landscape, const SelectionRules& rules,
+                    CauseSelection& found) {
+  landscape.ReportProgress(0.75, "ranking");
+  PutStrongestFirst(landscape, found);
+  if (found.causes.empty() || (rules.effort.first_cause_only && !found.whitened_anew)) {
+    found.candidates = landscape.Screen(Without(found.causes, 0));
+    TakeRefitted(found);
+    SortByScore(found.candidates);
+    return;
+  }
+  ScreenInPlaceOfFirst(landscape, found);
+}
+
+std::vector<std::vector<Candidate>> RankInPlaceOfEach(EvidenceLandscape& landscape,
+                                                      const SelectionRules& rules,
+                                                      CauseSelection& found) {
+  if (found.causes.empty()) {
+    RankCandidates(landscape, rules, found);
+    return {found.candidates};
+  }
+  std::vector<std::vector<Candidate>> in_place;
+  landscape.LineariseAt(found.point);
+  SortByGain(landscape, found);
+  for (std::size_t exchanged = 0; in_place.size() < found.causes.size();) {
+    const std::size_t k = in_place.size();
+    CauseSelection here = found;
+    std::swap(here.causes[0], here.causes[k]);
+    ScreenInPlaceOfFirst(landscape, here);
+    RefitAlternatives(landscape, rules, here);
+    const bool is_other = here.causes[0].effect != found.causes[k].effect;
+    if (is_other && exchanged++ < found.causes.size()) {
+      std::swap(here.causes[0], here.causes[k]);
+      found.causes = here.causes;
+      found.point = here.point;
+      landscape.LineariseAt(found.point);
+      SortByGain(landscape, found);
+      in_place.clear();
+      continue;
+    }
+    in_place.push_back(here.candidates);
+  }
+  found.candidates = in_place.front();
+  return in_place;
 }
 
 void RefitAlternatives(const EvidenceLandscape& landscape, const SelectionRules& rules,

@@ -3,6 +3,8 @@
 //
 // Thread  blocks the caller, two threads inside.
 
+#include <vector>
+
 #include "diagnosis/inference/cause_selection.hpp"
 #include "diagnosis/inference/evidence_landscape.hpp"
 
@@ -11,6 +13,12 @@ namespace levitas::diagnosis {
 /// Puts the strongest cause first and tries every effect in its place, on the linearisation.
 void RankCandidates(const EvidenceLandscape& landscape, const SelectionRules& rules,
                     CauseSelection& found);
+
+/// The same for every cause, the weightiest first, with the alternatives refitted; a better one
+/// takes the place of its cause. One list for each cause, itself included; without a cause one.
+[[nodiscard]] std::vector<std::vector<Candidate>> RankInPlaceOfEach(EvidenceLandscape& landscape,
+                                                                    const SelectionRules& rules,
+                                                                    CauseSelection& found);
 
 /// Refits the alternatives near the first cause on the nonlinear model; the best becomes first.
 void RefitAlternatives(const EvidenceLandscape& landscape, const SelectionRules& rules,

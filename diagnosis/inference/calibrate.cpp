@@ -76,12 +76,17 @@ std::vector<Term> HeldToFile(std::vector<Term> terms) {
   return terms;
 }
 
+Search SearchHeldBy(const std::vector<Term>& held, const Search& search) {
+  Search made(search.rig(), held, std::nullopt, search.model_error_share());
+  made.StopWhen(search.stop());
+  return made;
+}
+
 Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::vector<Term>& terms,
                            const std::vector<Record>& all, const std::vector<Record>& records,
                            const Gains& gains, const ObserverSpeed& speed, int passes) {
   const std::vector<Term> held = HeldToFile(terms);
-  Search cautious(rig, held, std::nullopt, search.model_error_share());
-  cautious.StopWhen(search.stop());
+  const Search cautious = SearchHeldBy(held, search);
   const std::vector<Record> part = Spans(all, kStartRows, rig.period_s);
   const Point start = FromFar(rig, cautious, held, Spans(all, kFastRows, rig.period_s), part,
                               cautious.DesignGains(part, speed));

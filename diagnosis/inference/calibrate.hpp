@@ -33,6 +33,9 @@ inline constexpr double kDaily = 0.2;  ///< share of its tolerance
 /// of state (unbalance, offset, load) as they are.
 [[nodiscard]] std::vector<Term> HeldToFile(std::vector<Term> terms);
 
+/// The same search with terms of HeldToFile, which must outlive it.
+[[nodiscard]] Search SearchHeldBy(const std::vector<Term>& held, const Search& search);
+
 /// `gains` are those of observers of this speed for `records`; `all` may be longer.
 [[nodiscard]] Refined CalibrateNuisances(const RigView& rig, const Search& search,
                                          const std::vector<Term>& terms,

@@ -3,6 +3,7 @@
 //
 // Units   evidence in nats; theta in the terms' own units. Thread: any.
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct SelectionRules {
   Judging judging;
   Effort effort;
   std::size_t most_causes{3};
+  /// Effects that do much the same by their physics: each is refitted in the other's place, however
+  /// far behind it seems. Empty: none.
+  std::function<bool(effect::Id, effect::Id)> alike{};
 };
 
 /// Causes and their fit.

@@ -3,13 +3,16 @@
 //
 // Why         merging, exchanging, dropping, ranking and refitting causes are decisions about
 //             numbers. Behind this interface they need no rig and no record, and a test can give
-//             them numbers of its own (tests/unit/diagnosis/toy_landscape.hpp).
-// Linearised  GainOf, Screen, EvidenceOf and SolutionOf see the model as linearised where
-//             LineariseAt was called last; they cost next to nothing.
+//             them numbers of its own (tests/unit/diagnosis/toy_landscape.hpp). Rotors and a ball
+//             between two magnets (diagnosis/levitator/levitator_landscape.hpp) share them so.
+// Linearised  a rotor's GainOf, Screen, EvidenceOf and SolutionOf see the model linearised where
+//             LineariseAt was called last; they cost next to nothing. A landscape whose laws bend
+//             more may fit the sets that it is asked about instead.
 // Fitted      Fit, Refit and RefineShapeOf run the nonlinear model: seconds.
 // Shapes      of families of laws (Family::shape) are part of a point, as theta is. A fit keeps
 //             those that it begins with; RefineShapeOf alone returns others.
 // Comparable  are fits between two calls of LineariseAt, which whitens anew.
+// Refined     has a point, its evidence, and whether there is one. The rest is of RecordLandscape.
 // Units       evidence and gains in nats; theta in the terms' own units. Thread: blocks the caller,
 //             two threads inside. Failure: a Refined that is not `ok`.
 

@@ -159,6 +159,15 @@ bool Moves(const std::vector<Hypothesis>& causes, std::size_t term) noexcept {
                      [term](const Hypothesis& h) { return Moves(h, term); });
 }
 
+bool AreSame(const Hypothesis& a, const Hypothesis& b) noexcept {
+  return a.effect == b.effect && a.place == b.place;
+}
+
+bool IsAmong(const std::vector<Hypothesis>& causes, const Hypothesis& cause) noexcept {
+  return std::any_of(causes.begin(), causes.end(),
+                     [&cause](const Hypothesis& other) { return AreSame(other, cause); });
+}
+
 std::vector<Hypothesis> MakeHypotheses(const RigView& rig, const std::vector<Term>& terms) {
   return Maker(rig, terms).Make();
 }

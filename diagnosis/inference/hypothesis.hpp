@@ -35,6 +35,12 @@ struct Hypothesis {
 /// True when any of them moves it.
 [[nodiscard]] bool Moves(const std::vector<Hypothesis>& causes, std::size_t term) noexcept;
 
+/// True when both say the same of the rig: the effect and its place.
+[[nodiscard]] bool AreSame(const Hypothesis& a, const Hypothesis& b) noexcept;
+
+/// True when one of the causes says the same.
+[[nodiscard]] bool IsAmong(const std::vector<Hypothesis>& causes, const Hypothesis& cause) noexcept;
+
 [[nodiscard]] std::vector<Hypothesis> MakeHypotheses(const RigView& rig,
                                                      const std::vector<Term>& terms);
 

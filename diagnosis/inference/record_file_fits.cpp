@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "diagnosis/inference/calibrate.hpp"
@@ -28,16 +27,14 @@ RecordFileFits::RecordFileFits(const Search& search, const std::vector<Term>& te
                                const std::vector<Record>& records)
     : search_(search),
       held_(HeldToFile(terms)),
-      cautious_(search.rig(), held_, std::nullopt, search.model_error_share()),
+      cautious_(SearchHeldBy(held_, search)),
       few_(Spans(records, kFewRows, search.rig().period_s)),
       part_(Spans(records, kJointRows, search.rig().period_s)),
       fast_few_(cautious_.DesignGains(few_, kFast)),
       fast_(cautious_.DesignGains(part_, kFast)),
       coarse_(cautious_, held_, few_, fast_few_, search.rig().axes),
       fine_(cautious_, held_, part_, fast_, search.rig().axes),
-      free_(search, terms, part_, fast_, search.rig().axes) {
-  cautious_.StopWhen(search.stop());
-}
+      free_(search, terms, part_, fast_, search.rig().axes) {}
 
 JointFit RecordFileFits::Free(const Point& held, const std::vector<Hypothesis>& causes) const {
   JointFit made{causes, held, free_.Approach(held, kWhiteningOrder, kFreePasses, causes)};

@@ -18,12 +18,6 @@ constexpr std::size_t kMostSwallowed = 3;
 /// it: right causes began hundreds of nat ahead of others.
 constexpr double kFarBehind = 100.0;
 
-bool IsAmong(const std::vector<Hypothesis>& causes, const Hypothesis& cause) {
-  return std::any_of(causes.begin(), causes.end(), [&cause](const Hypothesis& other) {
-    return other.effect == cause.effect && other.place == cause.place;
-  });
-}
-
 /// What is worth a fit on top of `found`: the best few of the screen, and causes that were found
 /// about the calibrated numbers, whose own numbers may have gone the wrong way with those.
 std::vector<Hypothesis> WorthAFit(const EvidenceLandscape& landscape,

@@ -175,6 +175,17 @@ std::optional<std::size_t> Choose(const std::vector<FitGain>& over_leader, doubl
   return best;
 }
 
+void DoubtBy(const FitGain& worth, const Judging& judging, CauseSelection& found) {
+  if (found.causes.empty()) return;
+  found.doubt = DoubtOf(worth.value, worth.deviation, judging.gain_deviations);
+  if (found.doubt == Doubt::kValidationHarm) {
+    found.probability = ChanceOfGain(worth.value, worth.deviation);
+  } else if (found.doubt == Doubt::kUnconfirmed) {
+    const double fitted_nat = found.candidates.empty() ? 0.0 : found.candidates.front().score;
+    found.probability = ChanceOfOpen(fitted_nat, 0.5 * worth.value, found.candidates.size());
+  }
+}
+
 void JudgeOnValidation(RecordLandscape& landscape, const std::vector<Record>& validation,
                        const Judging& judging, CauseSelection& found) {
   if (validation.empty() || found.causes.empty()) return;
@@ -199,18 +210,15 @@ void JudgeOnValidation(RecordLandscape& landscape, const std::vector<Record>& va
     worth = judge.Gain(WithoutCauses(landscape, found, judge),
                        With(landscape, judge, found.causes, found.point));
   }
-  found.doubt = DoubtOf(worth.value, worth.deviation, deviations);
+  DoubtBy(worth, judging, found);
   if (found.doubt == Doubt::kUnconfirmed) {
     // A wrong calibration may adapt as far as it must; what was foretold without that counts, too.
     const FitGain plain =
         judge.Gain(judge.Plain(PointWithoutCauses(landscape, found)), judge.Plain(found.point));
-    if (Confirms(plain.value, plain.deviation, deviations)) found.doubt = Doubt::kNothing;
-  }
-  if (found.doubt == Doubt::kValidationHarm) {
-    found.probability = ChanceOfGain(worth.value, worth.deviation);
-  } else if (found.doubt == Doubt::kUnconfirmed) {
-    const double fitted_nat = found.candidates.empty() ? 0.0 : found.candidates.front().score;
-    found.probability = ChanceOfOpen(fitted_nat, 0.5 * worth.value, found.candidates.size());
+    if (Confirms(plain.value, plain.deviation, deviations)) {
+      found.doubt = Doubt::kNothing;
+      found.probability = 0.0;
+    }
   }
 }
 

@@ -37,6 +37,10 @@ namespace levitas::diagnosis {
 [[nodiscard]] std::optional<std::size_t> Choose(const std::vector<FitGain>& over_leader,
                                                 double deviations);
 
+/// Says in `found.doubt`, with the probability, whether `worth`, the gain of the causes on
+/// validation data, refutes them or leaves them open. Nothing without causes.
+void DoubtBy(const FitGain& worth, const Judging& judging, CauseSelection& found);
+
 /// Exchanges the leader for a contender that foretells the user's `validation` data better, and
 /// says in `found.doubt` when the causes are refuted there. Nothing without such data.
 void JudgeOnValidation(RecordLandscape& landscape, const std::vector<Record>& validation,

@@ -72,7 +72,7 @@ std::optional<StatedFault> StatedFaultOf(Id id, const RigView& rig, double stren
 
 std::vector<StatedFault> StatedFaults(const RigView& rig, double strength) {
   std::vector<StatedFault> faults;
-  for (const effect::Row& row : effect::Catalogue()) {
+  for (const effect::Row& row : effect::EntryRows()) {
     if (row.id == Id::kSampleJitter) continue;  // no term of the diagnosis describes it
     if (auto fault = StatedFaultOf(row.id, rig, strength)) faults.push_back(std::move(*fault));
   }

@@ -4,9 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "diagnosis/inference/judging.hpp"
+#include "diagnosis/inference/ranking.hpp"
 #include "diagnosis/levitator/causes.hpp"
 #include "diagnosis/levitator/plan.hpp"
 #include "diagnosis/levitator/report_fits.hpp"
@@ -14,42 +15,106 @@
 #include "diagnosis/levitator/words.hpp"
 #include "diagnosis/report/affected_part.hpp"
 #include "diagnosis/report/report_text.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::levitator {
 namespace {
 
+using diagnosis::Candidate;
+using diagnosis::Hypothesis;
+
+std::string NameOf(effect::Id id) { return std::string(effect::At(id).name); }
+
 /// A candidate whose parameters include all of a named cause's is that cause with one more free
 /// parameter, not a tie.
-bool Contains(const Cause& cause, const Cause& named) {
-  return std::all_of(named.moves.begin(), named.moves.end(), [&](std::size_t i) {
-    return std::find(cause.moves.begin(), cause.moves.end(), i) != cause.moves.end();
+bool Contains(const Hypothesis& cause, const Hypothesis& named) {
+  return std::all_of(named.terms.begin(), named.terms.end(), [&](std::size_t i) {
+    return std::find(cause.terms.begin(), cause.terms.end(), i) != cause.terms.end();
   });
 }
 
-bool IsTie(const Found& found, const Score& score, std::size_t k) {
-  if (score.named || !score.refitted || found.causes[k] != score.instead_of) return false;
-  const double least = std::max(diagnosis::kDecisive, kFormOfTie * found.scores[k].nat);
-  return score.behind_nat < least && !Contains(Causes()[score.cause], Causes()[found.causes[k]]);
+bool IsNamed(const Found& found, effect::Id effect) {
+  return std::any_of(found.causes.begin(), found.causes.end(),
+                     [&](const Hypothesis& cause) { return cause.effect == effect; });
 }
 
-/// A candidate stands in the place of the named cause it does most for.
-std::string ReasonOf(const Score& score, const std::vector<diagnosis::ReportTie>& ties) {
-  if (score.named || score.instead_of >= Causes().size()) return {};
-  const std::string& effect = Causes()[score.cause].effect;
-  const std::string& named = Causes()[score.instead_of].effect;
-  const bool tied = std::any_of(ties.begin(), ties.end(), [&](const diagnosis::ReportTie& tie) {
-    return tie.cause == named &&
-           std::find(tie.others.begin(), tie.others.end(), effect) != tie.others.end();
+/// The cause itself among those in its place.
+const Candidate* OwnOf(const Found& found, std::size_t k) {
+  const auto& all = found.in_place[k];
+  const auto own = std::find_if(all.begin(), all.end(), [&](const Candidate& c) {
+    return c.effect == found.causes[k].effect;
   });
-  return tied ? fmt::format("not separable from {}", named)
-              : fmt::format("explains {:.0f} nat less than {} in its place", score.behind_nat,
-                            named);
+  return own == all.end() ? nullptr : &*own;
+}
+
+/// Effects that the data do not separate from the cause; a screen's word is not enough.
+std::vector<effect::Id> TiesOf(const Found& found, std::size_t k) {
+  std::vector<Candidate> fitted = found.in_place[k];
+  const Hypothesis& cause = found.causes[k];
+  std::erase_if(fitted, [&](const Candidate& c) {
+    return c.effect != cause.effect && (!c.refitted || Contains(Causes()[c.hypothesis], cause));
+  });
+  // No set adapts to the validation data here: what foretells them a little worse is not refuted.
+  for (Candidate& c : fitted) c.validation_nat.reset();
+  std::vector<Hypothesis> causes = diagnosis::Without(found.causes, k);
+  causes.insert(causes.begin(), cause);
+  return diagnosis::Ties(fitted, causes, diagnosis::kDecisive, kFormOfTie);
+}
+
+/// An effect that is not named, in the place of the cause that it does most for.
+struct InPlace {
+  Candidate candidate;
+  std::size_t of{};
+  double behind_nat{};
+};
+
+std::vector<InPlace> Others(const Found& found) {
+  std::vector<InPlace> others;
+  for (std::size_t k = 0; k < found.in_place.size(); ++k) {
+    const Candidate* own = found.causes.empty() ? nullptr : OwnOf(found, k);
+    for (const Candidate& c : found.in_place[k]) {
+      if (IsNamed(found, c.effect)) continue;
+      const InPlace here{c, k, (own == nullptr ? 0.0 : own->score) - c.score};
+      const auto same = std::find_if(others.begin(), others.end(), [&](const InPlace& o) {
+        return o.candidate.effect == c.effect;
+      });
+      if (same == others.end()) {
+        others.push_back(here);
+      } else if (std::pair(!c.refitted, here.behind_nat) <
+                 std::pair(!same->candidate.refitted, same->behind_nat)) {
+        *same = here;
+      }
+    }
+  }
+  std::stable_sort(others.begin(), others.end(), [](const InPlace& a, const InPlace& b) {
+    return a.candidate.score > b.candidate.score;
+  });
+  return others;
+}
+
+std::string ReasonOf(const Found& found, const InPlace& other,
+                     const std::vector<diagnosis::ReportTie>& ties) {
+  if (found.causes.empty()) return {};
+  const diagnosis::ReportTie& tie = ties[other.of];
+  const std::string name = NameOf(other.candidate.effect);
+  return std::find(tie.others.begin(), tie.others.end(), name) != tie.others.end()
+             ? fmt::format("not separable from {}", tie.cause)
+             : fmt::format("explains {:.0f} nat less than {} in its place", other.behind_nat,
+                           tie.cause);
+}
+
+void AddCandidate(const Candidate& c, std::string reason, diagnosis::DiagnosisReport& report) {
+  diagnosis::ReportCandidate& entry = report.candidates.emplace_back();
+  entry.effect = NameOf(c.effect);
+  entry.place = c.place;
+  entry.evidence_nat = c.score;
+  entry.refitted = c.refitted;
+  entry.reason = std::move(reason);
+  entry.validation_nat = c.validation_nat;
 }
 
 std::string PlaceOf(const Found& found, const diagnosis::DiagnosisReport& report) {
-  if (!found.causes.empty()) {
-    return std::string(Table()[Causes()[found.causes.front()].moves.front()].place);
-  }
+  if (!found.causes.empty()) return diagnosis::PlaceOfEffect(found.causes.front().effect);
   if (report.verdict == diagnosis::Verdict::kNone) return "";
   return diagnosis::PlaceOfResidual(report.residual.coherent_with);
 }
@@ -57,25 +122,15 @@ std::string PlaceOf(const Found& found, const diagnosis::DiagnosisReport& report
 }  // namespace
 
 void AddCauses(const Found& found, diagnosis::DiagnosisReport& report) {
-  for (const std::size_t c : found.causes) {
-    report.causes.push_back({Causes()[c].effect, Causes()[c].where});
-    report.ties.push_back({Causes()[c].effect, {}});
-  }
-  for (const Score& score : found.scores) {
-    for (std::size_t k = 0; k < found.causes.size(); ++k) {
-      if (IsTie(found, score, k)) report.ties[k].others.push_back(Causes()[score.cause].effect);
-    }
+  for (std::size_t k = 0; k < found.causes.size(); ++k) {
+    const Hypothesis& cause = found.causes[k];
+    report.causes.push_back({NameOf(cause.effect), cause.place});
+    report.ties.push_back({NameOf(cause.effect), effect::NamesOf(TiesOf(found, k))});
+    if (const Candidate* own = OwnOf(found, k)) AddCandidate(*own, "", report);
   }
   if (!report.ties.empty()) report.also_possible = report.ties.front().others;
-  for (const Score& score : found.scores) {
-    const Cause& cause = Causes()[score.cause];
-    diagnosis::ReportCandidate& candidate = report.candidates.emplace_back();
-    candidate.effect = cause.effect;
-    candidate.place = cause.where;
-    candidate.evidence_nat = score.nat;
-    candidate.refitted = score.refitted;
-    candidate.reason = ReasonOf(score, report.ties);
-    if (std::isfinite(score.validation_nat)) candidate.validation_nat = score.validation_nat;
+  for (const InPlace& other : Others(found)) {
+    AddCandidate(other.candidate, ReasonOf(found, other, report.ties), report);
   }
   report.evidence_nat = found.evidence;
 }

@@ -1,8 +1,7 @@
 #pragma once
 // The report of a levitator's diagnosis: the same plain data as for a rotor.
 //
-// Place    that of the first cause's parameter (parameters.hpp). Effects of voltage-driven coils
-//          are not in the catalogue of effects, which knows the places of a rotor's effects alone.
+// Place    that of the first cause in the catalogue of effects.
 // Ties     of every named cause: candidates that are less than the decisive evidence, or a share of
 //          the cause's, behind it in its place.
 // Thread   any; pure.

@@ -1,18 +1,24 @@
 #include "diagnosis/levitator/causes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <utility>
 
 namespace levitas::levitator {
 namespace {
 
-void AddCause(const char* where, std::vector<std::size_t> moves, std::vector<Cause>& causes) {
-  causes.push_back({std::string(Table()[moves.front()].effect), where, std::move(moves), 0.0});
+using diagnosis::Hypothesis;
+using effect::Id;
+
+void AddCause(const char* where, std::vector<std::size_t> moves, std::vector<Hypothesis>& causes) {
+  Hypothesis& cause = causes.emplace_back();
+  cause.effect = Table()[moves.front()].effect;
+  cause.place = where;
+  cause.terms = std::move(moves);
 }
 
 /// Of the loop, the coils, what their current does, and their probes.
-void AddCoilCauses(std::vector<Cause>& causes) {
+void AddCoilCauses(std::vector<Hypothesis>& causes) {
   AddCause("whole rig", {kDelay}, causes);
   AddCause("both coils", {kSupply}, causes);
   AddCause("both coils", {kResistance}, causes);
@@ -40,7 +46,7 @@ void AddCoilCauses(std::vector<Cause>& causes) {
 }
 
 /// Of the force over current and place, the position sensor and the ball.
-void AddBallCauses(std::vector<Cause>& causes) {
+void AddBallCauses(std::vector<Hypothesis>& causes) {
   AddCause("ball_x", {kForce}, causes);
   AddCause("ball_x", {kForceDecay}, causes);
   AddCause("both coils", {kForceExponent}, causes);
@@ -56,12 +62,12 @@ void AddBallCauses(std::vector<Cause>& causes) {
   AddCause("ball_x", {kSpring}, causes);
 }
 
-std::vector<Cause> Make() {
-  std::vector<Cause> causes;
+std::vector<Hypothesis> Make() {
+  std::vector<Hypothesis> causes;
   AddCoilCauses(causes);
   AddBallCauses(causes);
-  for (Cause& cause : causes) {
-    const auto same = std::count_if(causes.begin(), causes.end(), [&](const Cause& other) {
+  for (Hypothesis& cause : causes) {
+    const auto same = std::count_if(causes.begin(), causes.end(), [&](const Hypothesis& other) {
       return other.effect == cause.effect;
     });
     cause.log_prior = -std::log(static_cast<double>(same));
@@ -69,30 +75,36 @@ std::vector<Cause> Make() {
   return causes;
 }
 
-using Group = std::array<std::string_view, 5>;
-constexpr std::array kGroups{
-    Group{"current_gain", "rotor_mass", "sensor_offset", "current_sensor_gain", "force_exponent"},
-    Group{"supply_voltage", "coil_resistance", "coil_inductance", "current_sensor_gain", ""},
-    Group{"displacement_stiffness", "coupling_stiffness", "sensor_gain", "static_load", ""},
-    Group{"extra_delay", "current_sensor_bandwidth", "eddy_current", "", ""},
-    Group{"inductance_profile", "coil_inductance", "magnetic_saturation", "", ""},
-    Group{"voltage_drop", "command_offset", "drive_nonlinearity", "supply_voltage", ""},
-    Group{"viscous_damping", "dry_friction", "sensor_bandwidth", "", ""}};
+/// Effects that do much the same to the data by their physics.
+using Group = std::vector<Id>;
+const std::vector<Group>& Groups() {
+  static const std::vector<Group> kGroups{
+      {Id::kForceConstant, Id::kRotorMass, Id::kSensorOffset, Id::kCurrentSensorGain,
+       Id::kForceExponent},
+      {Id::kSupplyVoltage, Id::kCoilResistance, Id::kCoilInductance, Id::kCurrentSensorGain},
+      {Id::kDisplacementStiffness, Id::kCouplingStiffness, Id::kSensorGain, Id::kStaticLoad},
+      {Id::kExtraDelay, Id::kCurrentSensorBandwidth, Id::kEddyCurrent},
+      {Id::kInductanceProfile, Id::kCoilInductance, Id::kMagneticSaturation},
+      {Id::kVoltageDrop, Id::kCommandOffset, Id::kDriveNonlinearity, Id::kSupplyVoltage},
+      {Id::kViscousDamping, Id::kDryFriction, Id::kSensorBandwidth},
+  };
+  return kGroups;
+}
 
-bool Has(const Group& group, const std::string& effect) {
+bool Has(const Group& group, Id effect) {
   return std::find(group.begin(), group.end(), effect) != group.end();
 }
 
 }  // namespace
 
-bool Alike(const std::string& one, const std::string& other) {
-  return one != other && std::any_of(kGroups.begin(), kGroups.end(), [&](const Group& group) {
+bool Alike(Id one, Id other) {
+  return one != other && std::any_of(Groups().begin(), Groups().end(), [&](const Group& group) {
            return Has(group, one) && Has(group, other);
          });
 }
 
-const std::vector<Cause>& Causes() {
-  static const std::vector<Cause> kCauses = Make();
+const std::vector<diagnosis::Hypothesis>& Causes() {
+  static const std::vector<Hypothesis> kCauses = Make();
   return kCauses;
 }
 

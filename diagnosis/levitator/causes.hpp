@@ -5,24 +5,18 @@
 //            their number.
 // Thread     any; pure.
 
-#include <string>
 #include <vector>
 
+#include "diagnosis/inference/hypothesis.hpp"
 #include "diagnosis/levitator/parameters.hpp"
 
 namespace levitas::levitator {
 
-struct Cause {
-  std::string effect;
-  std::string where;  ///< "amplifier", "magnet: force" ...
-  std::vector<std::size_t> moves;
-  double log_prior{};
-};
-
-[[nodiscard]] const std::vector<Cause>& Causes();
+/// Their terms are parameters of the table; directions are left empty.
+[[nodiscard]] const std::vector<diagnosis::Hypothesis>& Causes();
 
 /// Whether two effects do much the same to the data by their physics, so that one is always tried
 /// in the other's place: the weight is carried by force constant, mass, gap and current alike.
-[[nodiscard]] bool Alike(const std::string& one, const std::string& other);
+[[nodiscard]] bool Alike(effect::Id one, effect::Id other);
 
 }  // namespace levitas::levitator

@@ -10,6 +10,7 @@
 #include "diagnosis/report/effect_entry.hpp"
 #include "diagnosis/report/extended_rig.hpp"
 #include "numerics/normal_distribution.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::levitator {
 namespace {
@@ -77,13 +78,13 @@ bool InTheModel(std::size_t i) {
 
 std::string Comments(const Found& found) {
   std::string text;
-  for (const std::size_t c : found.causes) {
-    for (const std::size_t i : Causes()[c].moves) {
+  for (const diagnosis::Hypothesis& cause : found.causes) {
+    for (const std::size_t i : cause.terms) {
       const Row& row = Table()[i];
       const double spread = numerics::kInterval90 * found.extended.deviation[i];
-      text += fmt::format("# {} {} = {:.5g} {} ({:.5g} to {:.5g}){}\n", row.effect, row.name,
-                          found.extended.theta[i], row.unit, found.extended.theta[i] - spread,
-                          found.extended.theta[i] + spread,
+      text += fmt::format("# {} {} = {:.5g} {} ({:.5g} to {:.5g}){}\n", effect::At(row.effect).name,
+                          row.name, found.extended.theta[i], row.unit,
+                          found.extended.theta[i] - spread, found.extended.theta[i] + spread,
                           InTheModel(i) ? "" : ": the simulated rig has no key for it");
     }
   }
@@ -117,8 +118,8 @@ std::string WithValues(const configuration::RigFile& file, const Theta& t,
 std::string ExtendedRig(const configuration::RigFile& file, const Theta& origin,
                         const Found& found) {
   Theta t = ComposedWith(OriginOf(file), Zeros(1));
-  for (const std::size_t c : found.causes) {
-    for (const std::size_t i : Causes()[c].moves) {
+  for (const diagnosis::Hypothesis& cause : found.causes) {
+    for (const std::size_t i : cause.terms) {
       t[i] = ComposedWith(i, origin[i], found.extended.theta[i]);
     }
   }

@@ -170,10 +170,9 @@ Freedom FreedomOf(const CauseSet& causes, std::size_t records, const Theta& orig
     least[i] = std::max(LeastOf(i, origin), -most[i]);
   }
   Freedom freedom;
-  for (const std::size_t c : causes) {
-    const Cause& cause = Causes()[c];
+  for (const diagnosis::Hypothesis& cause : causes) {
     freedom.log_prior += cause.log_prior;
-    for (const std::size_t i : cause.moves) {
+    for (const std::size_t i : cause.terms) {
       covariance(static_cast<Index>(i), static_cast<Index>(i)) += WideOf(i) * WideOf(i);
       most[i] = std::numeric_limits<double>::max();
       least[i] = LeastOf(i, origin);
@@ -232,8 +231,7 @@ Fitted Fitter::Fit(const CauseSet& causes, const Theta& start, const Filters& fi
 }
 
 Filters Fitter::Noise() const {
-  CauseSet everything(Causes().size());
-  for (std::size_t c = 0; c < everything.size(); ++c) everything[c] = c;
+  const CauseSet& everything = Causes();
   Theta theta = Zeros(misfit_.series().size());
   // Scaled alone at first: what is not explained yet is no noise.
   const Filters filters = misfit_.Whiten(theta, 0);
@@ -274,9 +272,9 @@ std::vector<double> Fitter::Screen(const CauseSet& causes, const Fitted& at,
   bool possible = true;
   const double base = evidence(causes, possible);
   std::vector<double> gain;
-  for (std::size_t c = 0; c < Causes().size(); ++c) {
+  for (const diagnosis::Hypothesis& cause : Causes()) {
     CauseSet with = causes;
-    with.push_back(c);
+    with.push_back(cause);
     const double value = evidence(with, possible);
     gain.push_back(possible ? value - base : -std::numeric_limits<double>::infinity());
   }

@@ -15,8 +15,7 @@
 
 namespace levitas::levitator {
 
-/// Indices into Causes().
-using CauseSet = std::vector<std::size_t>;
+using CauseSet = std::vector<diagnosis::Hypothesis>;
 
 struct Fitted {
   Theta theta;

@@ -132,6 +132,9 @@ struct MovedBy {
   // A ball has neither housings nor wheels.
   Theta operator()(effect::SupportId /*id*/) const { Refuse(); }
   Theta operator()(effect::GearId /*id*/) const { Refuse(); }
+  // No entries of a rig file.
+  Theta operator()(effect::CoilId /*id*/) const { Refuse(); }
+  Theta operator()(effect::BallId /*id*/) const { Refuse(); }
 
   [[nodiscard]] double v(std::size_t i) const { return entry.values[i]; }
 

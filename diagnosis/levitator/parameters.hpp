@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "plant_sim/effect/effect_config.hpp"
+
 namespace levitas::levitator {
 
 enum Parameter : std::size_t {
@@ -58,8 +60,7 @@ enum Parameter : std::size_t {
 enum class Side : unsigned char { kCoils, kMotion, kBoth };
 
 struct Row {
-  std::string_view effect;  ///< id of docs/effects.md where it has one
-  std::string_view place;
+  effect::Id effect{};
   std::string_view name;
   std::string_view unit;
   Side side;

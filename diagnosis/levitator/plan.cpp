@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <array>
-#include <string_view>
 #include <utility>
+
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::levitator {
 namespace {
+
+using effect::Id;
 
 /// What a scenario can do about a pair.
 struct Ways {
@@ -16,7 +19,7 @@ struct Ways {
 };
 
 struct Pair {
-  std::string_view one, other;
+  Id one{}, other{};
   Ways ways;
   const char* words;
 };
@@ -60,36 +63,36 @@ constexpr const char* kDampingWords =
     "a slow sensor with the frequency";
 
 constexpr std::array kPairs{
-    Pair{"inductance_profile", "coil_inductance", kStroke, kProfileWords},
-    Pair{"inductance_profile", "magnetic_saturation", kBoth, kIronWords},
-    Pair{"coil_inductance", "magnetic_saturation", kBoth, kIronWords},
-    Pair{"static_load", "rotor_mass", kShake, kLoadWords},
-    Pair{"static_load", "current_gain", kShake, kLoadWords},
-    Pair{"static_load", "coil_asymmetry", kStroke, kGapWords},
-    Pair{"static_load", "drive_asymmetry", kStroke, kGapWords},
-    Pair{"static_load", "sensor_gain", kStroke, kGapWords},
-    Pair{"static_load", "displacement_stiffness", kStroke, kGapWords},
-    Pair{"static_load", "coupling_stiffness", kStroke, kGapWords},
-    Pair{"displacement_stiffness", "coupling_stiffness", kStroke, kGapWords},
-    Pair{"displacement_stiffness", "sensor_gain", kStroke, kGapWords},
-    Pair{"displacement_stiffness", "sensor_nonlinearity", kStroke, kGapWords},
-    Pair{"coupling_stiffness", "sensor_gain", kStroke, kGapWords},
-    Pair{"rotor_mass", "current_gain", kNoRecord, kWeighWords},
-    Pair{"sensor_offset", "current_gain", kNoRecord, kPlaceWords},
-    Pair{"sensor_offset", "rotor_mass", kNoRecord, kPlaceWords},
-    Pair{"current_sensor_gain", "current_gain", kNoRecord, kAmmeterWords},
-    Pair{"current_sensor_gain", "supply_voltage", kNoRecord, kAmmeterWords},
-    Pair{"current_sensor_gain", "coil_resistance", kNoRecord, kAmmeterWords},
-    Pair{"voltage_drop", "drive_nonlinearity", kStroke, kDriveWords},
-    Pair{"voltage_drop", "supply_voltage", kStroke, kDriveWords},
-    Pair{"drive_nonlinearity", "supply_voltage", kStroke, kDriveWords},
-    Pair{"supply_voltage", "coil_resistance", kClock, kResistanceWords},
-    Pair{"extra_delay", "eddy_current", kClock, kLagWords},
-    Pair{"extra_delay", "current_sensor_bandwidth", kClock, kLagWords},
-    Pair{"extra_delay", "sensor_bandwidth", kClock, kLagWords},
-    Pair{"viscous_damping", "dry_friction", kShake, kDampingWords},
-    Pair{"viscous_damping", "sensor_bandwidth", kShake, kDampingWords},
-    Pair{"dry_friction", "sensor_bandwidth", kShake, kDampingWords}};
+    Pair{Id::kInductanceProfile, Id::kCoilInductance, kStroke, kProfileWords},
+    Pair{Id::kInductanceProfile, Id::kMagneticSaturation, kBoth, kIronWords},
+    Pair{Id::kCoilInductance, Id::kMagneticSaturation, kBoth, kIronWords},
+    Pair{Id::kStaticLoad, Id::kRotorMass, kShake, kLoadWords},
+    Pair{Id::kStaticLoad, Id::kForceConstant, kShake, kLoadWords},
+    Pair{Id::kStaticLoad, Id::kCoilAsymmetry, kStroke, kGapWords},
+    Pair{Id::kStaticLoad, Id::kDriveAsymmetry, kStroke, kGapWords},
+    Pair{Id::kStaticLoad, Id::kSensorGain, kStroke, kGapWords},
+    Pair{Id::kStaticLoad, Id::kDisplacementStiffness, kStroke, kGapWords},
+    Pair{Id::kStaticLoad, Id::kCouplingStiffness, kStroke, kGapWords},
+    Pair{Id::kDisplacementStiffness, Id::kCouplingStiffness, kStroke, kGapWords},
+    Pair{Id::kDisplacementStiffness, Id::kSensorGain, kStroke, kGapWords},
+    Pair{Id::kDisplacementStiffness, Id::kSensorNonlinearity, kStroke, kGapWords},
+    Pair{Id::kCouplingStiffness, Id::kSensorGain, kStroke, kGapWords},
+    Pair{Id::kRotorMass, Id::kForceConstant, kNoRecord, kWeighWords},
+    Pair{Id::kSensorOffset, Id::kForceConstant, kNoRecord, kPlaceWords},
+    Pair{Id::kSensorOffset, Id::kRotorMass, kNoRecord, kPlaceWords},
+    Pair{Id::kCurrentSensorGain, Id::kForceConstant, kNoRecord, kAmmeterWords},
+    Pair{Id::kCurrentSensorGain, Id::kSupplyVoltage, kNoRecord, kAmmeterWords},
+    Pair{Id::kCurrentSensorGain, Id::kCoilResistance, kNoRecord, kAmmeterWords},
+    Pair{Id::kVoltageDrop, Id::kDriveNonlinearity, kStroke, kDriveWords},
+    Pair{Id::kVoltageDrop, Id::kSupplyVoltage, kStroke, kDriveWords},
+    Pair{Id::kDriveNonlinearity, Id::kSupplyVoltage, kStroke, kDriveWords},
+    Pair{Id::kSupplyVoltage, Id::kCoilResistance, kClock, kResistanceWords},
+    Pair{Id::kExtraDelay, Id::kEddyCurrent, kClock, kLagWords},
+    Pair{Id::kExtraDelay, Id::kCurrentSensorBandwidth, kClock, kLagWords},
+    Pair{Id::kExtraDelay, Id::kSensorBandwidth, kClock, kLagWords},
+    Pair{Id::kViscousDamping, Id::kDryFriction, kShake, kDampingWords},
+    Pair{Id::kViscousDamping, Id::kSensorBandwidth, kShake, kDampingWords},
+    Pair{Id::kDryFriction, Id::kSensorBandwidth, kShake, kDampingWords}};
 
 constexpr const char* kAllWords =
     "the ball led over its stroke and shaken, with a test signal on the current";
@@ -98,12 +101,13 @@ bool AnyRecord(const Ways& ways) { return ways.stroke || ways.shake || ways.cloc
 
 /// Of two effects; everything that a scenario can do when the table does not know them.
 Pair Between(const std::string& one, const std::string& other) {
+  const auto are = [&](Id a, Id b) {
+    return effect::At(a).name == one && effect::At(b).name == other;
+  };
   for (const Pair& pair : kPairs) {
-    if ((pair.one == one && pair.other == other) || (pair.one == other && pair.other == one)) {
-      return pair;
-    }
+    if (are(pair.one, pair.other) || are(pair.other, pair.one)) return pair;
   }
-  return {one, other, {true, true, true}, kAllWords};
+  return {{}, {}, {true, true, true}, kAllWords};
 }
 
 bool Nameless(const diagnosis::DiagnosisReport& report) {

@@ -5,8 +5,6 @@
 #include <complex>
 
 #include "diagnosis/inference/gain.hpp"
-#include "diagnosis/inference/judging.hpp"
-#include "diagnosis/inference/validation_doubt.hpp"
 #include "diagnosis/levitator/run_fit.hpp"
 #include "numerics/fourier_transform.hpp"
 #include "numerics/hann_window.hpp"
@@ -69,20 +67,6 @@ diagnosis::ReportRunFit RunFitOf(const Fit& nominal, const Fit& calibrated, cons
   return {percent(nominal), percent(calibrated), percent(extended), ceiling};
 }
 
-/// Causes that are worth nothing on validation data are suspected, however decisive they were.
-void DoubtUnconfirmed(const Found& found, diagnosis::DiagnosisReport& report) {
-  if (report.verdict != diagnosis::Verdict::kEffect || !found.judged) return;
-  const diagnosis::FitGain& gain = found.validation;
-  report.doubt =
-      diagnosis::DoubtOf(gain.value, gain.deviation, diagnosis::Judging{}.gain_deviations);
-  if (report.doubt == diagnosis::Doubt::kNothing) return;
-  report.verdict = diagnosis::Verdict::kSuspected;
-  report.probability =
-      report.doubt == diagnosis::Doubt::kValidationHarm
-          ? diagnosis::ChanceOfGain(gain.value, gain.deviation)
-          : diagnosis::ChanceOfOpen(found.evidence, 0.5 * gain.value, Causes().size());
-}
-
 }  // namespace
 
 void AddResidual(const NominalRig& rig, const std::vector<Series>& data, const Found& found,
@@ -113,7 +97,11 @@ void AddResidual(const NominalRig& rig, const std::vector<Series>& data, const F
   report.verdict = much && out.explained < kExplained ? diagnosis::Verdict::kUnknown
                    : report.causes.empty()            ? diagnosis::Verdict::kNone
                                                       : diagnosis::Verdict::kEffect;
-  DoubtUnconfirmed(found, report);
+  if (report.verdict != diagnosis::Verdict::kEffect || found.doubt == diagnosis::Doubt::kNothing)
+    return;
+  report.verdict = diagnosis::Verdict::kSuspected;
+  report.doubt = found.doubt;
+  report.probability = found.probability;
 }
 
 diagnosis::ReportFit MeanFit(const std::vector<ValidationRun>& runs, bool probes,

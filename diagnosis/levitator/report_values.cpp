@@ -11,6 +11,7 @@
 #include "diagnosis/levitator/origin.hpp"
 #include "diagnosis/report/effect_entry.hpp"
 #include "numerics/normal_distribution.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::levitator {
 namespace {
@@ -103,7 +104,7 @@ diagnosis::NamedParameter ParameterOf(const configuration::RigFile& rig, const T
   const FileKey file_key = KeyBeside(rig, origin, i);
   const double spread = numerics::kInterval90 * fit.deviation[i];
   diagnosis::NamedParameter p;
-  p.effect = row.effect;
+  p.effect = effect::At(row.effect).name;
   p.key = file_key.key;
   p.location = diagnosis::AtAxis(rig.numbers, 0);
   p.name = fmt::format("{}[{}]", p.key, p.location.name);
@@ -124,7 +125,7 @@ diagnosis::CalibratedValue CalibratedOf(const configuration::RigFile& rig, const
   const double theta = fit.theta[i];
   const double deviation = fit.deviation[i];
   diagnosis::CalibratedValue v;
-  v.effect = row.effect;
+  v.effect = effect::At(row.effect).name;
   v.place = rig.numbers.channels.front();
   v.key = file_key.key;
   v.unit = UnitOf(file_key, row);
@@ -143,8 +144,8 @@ diagnosis::CalibratedValue CalibratedOf(const configuration::RigFile& rig, const
 std::vector<diagnosis::NamedParameter> ReportParameters(const configuration::RigFile& rig,
                                                         const Theta& origin, const Found& found) {
   std::vector<diagnosis::NamedParameter> parameters;
-  for (const std::size_t c : found.causes) {
-    for (const std::size_t i : Causes()[c].moves) {
+  for (const diagnosis::Hypothesis& cause : found.causes) {
+    for (const std::size_t i : cause.terms) {
       parameters.push_back(ParameterOf(rig, origin, i, found.extended));
     }
   }
@@ -154,8 +155,8 @@ std::vector<diagnosis::NamedParameter> ReportParameters(const configuration::Rig
 std::vector<diagnosis::CalibratedValue> ReportCalibration(const configuration::RigFile& rig,
                                                           const Theta& origin, const Found& found) {
   std::vector<bool> named(kParameters, false);
-  for (const std::size_t c : found.causes) {
-    for (const std::size_t i : Causes()[c].moves) named[i] = true;
+  for (const diagnosis::Hypothesis& cause : found.causes) {
+    for (const std::size_t i : cause.terms) named[i] = true;
   }
   std::vector<diagnosis::CalibratedValue> calibrated;
   for (std::size_t i = 0; i < kParameters; ++i) {

@@ -1,51 +1,41 @@
 #pragma once
 // Model selection for a levitator: which causes explain its residual.
 //
-// Method     calibrate; screen every cause; refit the best few on the nonlinear model; accept the
-//            best; drop earlier ones that the others explain (backward check); again until none
-//            gains kDecisive and a share of what is explained already (form_share). Where all
-//            further causes are small beside the first one, the search is made from other first
-//            causes, too: such a chain is the mark of a wrong first one.
-// Score      nat that a cause adds to all others; of one that was not named, what it would add in
-//            place of the named one it does most for.
-// Validation the same gain in likelihood on records that were not fitted, where there are any. The
-//            weakest cause is dropped as long as it loses there: what a wrong first cause leaves is
-//            taken up by a chain of such.
+// Method     the steps of diagnosis/inference on the evidence of levitator_landscape.hpp: forward
+//            selection (selection_steps.hpp), also from other first causes (first_cause.hpp);
+//            backward check; what loses on validation data goes (refuted_causes.hpp); every effect
+//            in the place of each cause (alternatives.hpp).
+// Form       force laws of coils and magnets are known better than those of a rotor's, and records
+//            are worth 1e5 nat: the share of a cause's evidence that a law's form may leave is
+//            kForm, and kFormOfTie for what is tied.
+// Validation gain in likelihood on records that were not fitted, where there are any.
 // Thread     blocks the caller, two threads inside.
 
-#include <functional>
-#include <string>
 #include <vector>
 
+#include "diagnosis/inference/cause_selection.hpp"
 #include "diagnosis/inference/fit_gain.hpp"
-#include "diagnosis/levitator/fit.hpp"
+#include "diagnosis/levitator/levitator_landscape.hpp"
 
 namespace levitas::levitator {
 
-inline constexpr double kForm = 0.001;  ///< share of the evidence that a law's form may leave
+inline constexpr double kForm = 0.001;
 
 /// Causes within this share of a cause's evidence are a tie: force laws are not known better.
 inline constexpr double kFormOfTie = 0.005;
-
-struct Score {
-  std::size_t cause{};  ///< index into Causes()
-  double nat{};
-  double validation_nat{};  ///< NaN where there is no validation data
-  double behind_nat{};      ///< of one not named: behind the cause in whose place it stands
-  bool named{};
-  bool refitted{};
-  std::size_t instead_of{};  ///< of one not named: the named one; Causes().size() if none
-};
 
 struct Found {
   CauseSet causes;  ///< the weightiest first
   Fitted calibrated;
   Fitted extended;
-  Filters filters;                ///< of the extended model
-  std::vector<Score> scores;      ///< best variant of every effect, named ones first
-  double evidence{};              ///< [nat] of all causes together
-  bool judged{};                  ///< there were such records
-  diagnosis::FitGain validation;  ///< of all causes together on them
+  Filters filters;  ///< of the extended model
+  /// Of every cause: each effect at its best place instead of it, itself included; without a cause
+  /// one list of what each would add.
+  std::vector<std::vector<diagnosis::Candidate>> in_place;
+  double evidence{};                                   ///< [nat] of all causes together
+  diagnosis::FitGain validation;                       ///< of all causes together on such records
+  diagnosis::Doubt doubt{diagnosis::Doubt::kNothing};  ///< by them
+  double probability{};                                ///< of what is doubted
 };
 
 struct SearchSettings {
@@ -53,7 +43,7 @@ struct SearchSettings {
   double form_share{kForm};  ///< of what is explained, to be gained by a further cause
   /// Validation data are a part of the records themselves: what loses there is no cause at all.
   bool own_validation{false};
-  std::function<void(double, const std::string&)> progress;
+  Progress progress;
 };
 
 [[nodiscard]] Found Search(const Misfit& data, const Misfit* validation,

@@ -1,6 +1,6 @@
 #pragma once
-// Words of the workshop for what only a ball between two magnets on a voltage has
-// (plant_sim/effect/workshop.hpp has the rest).
+// Words of the workshop that speak of a rotor, said of a ball (plant_sim/effect/workshop.hpp has
+// the rest).
 //
 // Thread  any; constant data.
 

@@ -6,8 +6,7 @@
 //           between two magnets, once, from the result of a search.
 // Units     of parameters and calibrated values those of the rig file's keys, named in `unit`;
 //           fits in percent; evidence in nats; shares and confidence as fractions of 1.
-// Effects   by name, not by id of the catalogue: a levitator's report has names that the catalogue
-//           lacks (own_words). A rotor's come from ids (build_report.cpp).
+// Effects   by name, as files and people have them; each comes from an id of the catalogue.
 // Frame     phases are relative to the key phasor, as in the rig file.
 // Thread    any; plain values, no reference to the rig or to the records.
 // Not done  no layout: sentences and rig files are text, tables and pictures are made by readers.
@@ -265,7 +264,7 @@ struct DiagnosisReport {
   bool needs_experiment{};       ///< a further record would decide something
   std::string next_experiment;
   std::vector<ReportCandidate> candidates;  ///< best first
-  /// Words of effects that the catalogue lacks, or means otherwise.
+  /// Words in place of the catalogue's, where those speak of a rotor and this is none.
   std::vector<effect::Words> own_words;
   ReportScale scale;
   ReportRotor rotor;

@@ -7,11 +7,13 @@
 #include <numbers>
 #include <stdexcept>
 #include <utility>
+#include <variant>
 
 #include "configuration/schema/unit.hpp"
 #include "diagnosis/report/gear_entry.hpp"
 #include "diagnosis/terms/terms.hpp"
 #include "plant_sim/effect/catalogue.hpp"
+#include "plant_sim/effect/placed_id.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -198,64 +200,118 @@ std::optional<double> RoundedSi(const EntryValue& value) {
 }
 
 /// Every effect has its line: a new one without an entry is refused by the compiler (-Wswitch).
-EntryValues NumbersOf(const RigView& rig, Id id, const PlacedEffect& at) {
-  switch (id) {
-    case Id::kDisplacementStiffness:
-    case Id::kCurrentGain:
-    case Id::kForceConstant:
-    case Id::kCommandOffset:
-    case Id::kMagneticCoupling:
-      return CatalogueEntry(effect::At(id), at);
-    case Id::kAmplifierBandwidth:
-    case Id::kAmplifierSlew:
-      return AmplifierEntry(rig, id, at);
-    case Id::kCoilAsymmetry:
-    case Id::kMagneticSaturation:
-    case Id::kHysteresis:
-    case Id::kEddyCurrent:
-    case Id::kAxisRotation:
-      return MagnetEntry(rig, id, at);
-    case Id::kSensorGain:
-    case Id::kSensorOffset:
-    case Id::kSensorNonlinearity:
-    case Id::kSensorBandwidth:
-    case Id::kSensorPosition:
-    case Id::kSensorRunout:
-    case Id::kMainsPickup:
-    case Id::kSensorNoise:
-      return SensorEntry(rig, id, at);
-    case Id::kUnbalance:
-    case Id::kShaftBow:
-    case Id::kShaftAnisotropy:
-    case Id::kModalFrequency:
-    case Id::kModalDamping:
-    case Id::kGyroscopicInertia:
-    case Id::kInternalDamping:
-    case Id::kRotorMass:
-    case Id::kBreathingCrack:
-      return RotorEntry(rig, id, at);
-    case Id::kExtraDelay:
-    case Id::kMisalignment:
-    case Id::kCouplingStiffness:
-    case Id::kCrossCoupledStiffness:
-    case Id::kStaticLoad:
-    case Id::kSupportMode:
-    case Id::kTouchdownRub:
-      return ExternalEntry(rig, id, at);
-    case Id::kMeshStiffness:
-    case Id::kMeshStiffnessVariation:
-    case Id::kBacklash:
-    case Id::kMeshFriction:
-    case Id::kTransmissionError:
-    case Id::kGearRunout:
-    case Id::kToothCrack:
-      return GearEntry(rig, id, at);
-    case Id::kDroppedSamples:
-    case Id::kSampleJitter:
-      return {};
+struct NumbersOf {
+  const RigView& rig;
+  const PlacedEffect& at;
+
+  EntryValues operator()(effect::TimingId id) const {
+    switch (id) {
+      case effect::TimingId::kExtraDelay:
+        return ExternalEntry(rig, effect::IdOf(id), at);
+      case effect::TimingId::kDroppedSamples:
+      case effect::TimingId::kSampleJitter:
+        break;
+    }
+    return {};
   }
-  return {};
-}
+
+  EntryValues operator()(effect::AmplifierId id) const {
+    switch (id) {
+      case effect::AmplifierId::kAmplifierBandwidth:
+      case effect::AmplifierId::kAmplifierSlew:
+        return AmplifierEntry(rig, effect::IdOf(id), at);
+      case effect::AmplifierId::kCurrentGain:
+      case effect::AmplifierId::kCommandOffset:
+        break;
+    }
+    return CatalogueEntry(effect::At(effect::IdOf(id)), at);
+  }
+
+  EntryValues operator()(effect::MagnetId id) const {
+    switch (id) {
+      case effect::MagnetId::kCoilAsymmetry:
+      case effect::MagnetId::kMagneticSaturation:
+      case effect::MagnetId::kHysteresis:
+      case effect::MagnetId::kEddyCurrent:
+      case effect::MagnetId::kAxisRotation:
+        return MagnetEntry(rig, effect::IdOf(id), at);
+      case effect::MagnetId::kForceConstant:
+      case effect::MagnetId::kDisplacementStiffness:
+      case effect::MagnetId::kMagneticCoupling:
+        break;
+    }
+    return CatalogueEntry(effect::At(effect::IdOf(id)), at);
+  }
+
+  EntryValues operator()(effect::SensorId id) const {
+    switch (id) {
+      case effect::SensorId::kSensorGain:
+      case effect::SensorId::kSensorOffset:
+      case effect::SensorId::kSensorNonlinearity:
+      case effect::SensorId::kSensorBandwidth:
+      case effect::SensorId::kSensorPosition:
+      case effect::SensorId::kSensorRunout:
+      case effect::SensorId::kMainsPickup:
+      case effect::SensorId::kSensorNoise:
+        break;
+    }
+    return SensorEntry(rig, effect::IdOf(id), at);
+  }
+
+  EntryValues operator()(effect::RotorId id) const {
+    switch (id) {
+      case effect::RotorId::kUnbalance:
+      case effect::RotorId::kShaftBow:
+      case effect::RotorId::kShaftAnisotropy:
+      case effect::RotorId::kModalFrequency:
+      case effect::RotorId::kModalDamping:
+      case effect::RotorId::kGyroscopicInertia:
+      case effect::RotorId::kInternalDamping:
+      case effect::RotorId::kRotorMass:
+      case effect::RotorId::kBreathingCrack:
+        break;
+    }
+    return RotorEntry(rig, effect::IdOf(id), at);
+  }
+
+  EntryValues operator()(effect::ExternalId id) const {
+    switch (id) {
+      case effect::ExternalId::kMisalignment:
+      case effect::ExternalId::kCouplingStiffness:
+      case effect::ExternalId::kCrossCoupledStiffness:
+      case effect::ExternalId::kStaticLoad:
+        break;
+    }
+    return ExternalEntry(rig, effect::IdOf(id), at);
+  }
+
+  EntryValues operator()(effect::SupportId id) const {
+    switch (id) {
+      case effect::SupportId::kSupportMode:
+      case effect::SupportId::kTouchdownRub:
+        break;
+    }
+    return ExternalEntry(rig, effect::IdOf(id), at);
+  }
+
+  EntryValues operator()(effect::GearId id) const {
+    switch (id) {
+      case effect::GearId::kMeshStiffness:
+      case effect::GearId::kMeshStiffnessVariation:
+      case effect::GearId::kBacklash:
+      case effect::GearId::kMeshFriction:
+      case effect::GearId::kTransmissionError:
+      case effect::GearId::kGearRunout:
+      case effect::GearId::kToothCrack:
+        break;
+    }
+    return GearEntry(rig, effect::IdOf(id), at);
+  }
+
+  // No entries of a rig file.
+  EntryValues operator()(effect::CoilId /*id*/) const { return {}; }
+  EntryValues operator()(effect::BallId /*id*/) const { return {}; }
+};
 
 }  // namespace
 
@@ -264,7 +320,7 @@ EntryValue PhaseValue(double phase_rad) {
 }
 
 EntryValues ValuesOf(const RigView& rig, const PlacedEffect& at) {
-  return NumbersOf(rig, at.effect.value(), at);
+  return std::visit(NumbersOf{rig, at}, effect::Placed(at.effect.value()));
 }
 
 std::optional<effect::EffectConfig> MakeEntry(Id id, const Location& at, std::size_t axes_of_rig,

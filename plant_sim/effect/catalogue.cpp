@@ -1,6 +1,7 @@
 #include "plant_sim/effect/catalogue.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <vector>
 
 namespace levitas::effect {
@@ -14,8 +15,8 @@ std::string Joined(std::string_view stem, std::string_view suffix) {
 
 std::vector<Row> Collect() {
   std::vector<Row> all;
-  for (const auto rows :
-       {LoopRows(), MagnetRows(), SensorRows(), RotorRows(), ExternalRows(), GearRows()}) {
+  for (const auto rows : {LoopRows(), MagnetRows(), SensorRows(), RotorRows(), ExternalRows(),
+                          GearRows(), CoilRows(), BallRows()}) {
     all.insert(all.end(), rows.begin(), rows.end());
   }
   std::sort(all.begin(), all.end(), [](const Row& a, const Row& b) { return a.id < b.id; });
@@ -27,6 +28,25 @@ std::vector<Row> Collect() {
 std::span<const Row> Catalogue() {
   static const std::vector<Row> kRows = Collect();
   return kRows;
+}
+
+std::span<const Row> EntryRows() {
+  static const std::vector<Row> kRows = [] {
+    std::vector<Row> rows;
+    std::ranges::copy_if(Catalogue(), std::back_inserter(rows), IsEntry);
+    return rows;
+  }();
+  return kRows;
+}
+
+bool IsEntry(const Row& row) noexcept {
+  return row.place != Place::kCoil && row.place != Place::kBall;
+}
+
+std::string InPlaceOfAnEntry(const Row& row) {
+  if (row.rig_key.empty()) return "no simulated rig has it; leave it out";
+  return "coils on a voltage have it by keys of their own; write " + std::string(row.rig_key) +
+         " instead, and leave it out for other coils";
 }
 
 const Row& At(Id id) { return Catalogue()[static_cast<std::size_t>(id)]; }
@@ -54,8 +74,9 @@ std::vector<std::string> NamesOf(std::span<const Id> ids) {
 }
 
 std::string_view Name(Place place) noexcept {
-  constexpr std::array<std::string_view, 8> kNames{"timing",  "amplifier", "magnet", "rotor",
-                                                   "support", "external",  "gear",   "sensor"};
+  constexpr std::array<std::string_view, 10> kNames{"timing",  "amplifier", "magnet", "rotor",
+                                                    "support", "external",  "gear",   "sensor",
+                                                    "coil",    "ball"};
   return kNames.at(static_cast<std::size_t>(place));
 }
 

@@ -83,10 +83,21 @@ struct Row {
   std::string_view signature;  ///< what it changes: order, place, sign
   std::string_view source;
   Facts facts;
+  /// Of one that is no entry of the list `effects`: the key of a rig file that stands for it.
+  /// Empty: an entry; or, of IsEntry false, nothing in a rig file does.
+  std::string_view rig_key{};
 };
+
+/// Whether the list `effects` of a rig file takes it. Those of coils on a voltage and of a ball are
+/// found by a diagnosis; a simulated rig has them by keys of its coil, or not at all.
+[[nodiscard]] bool IsEntry(const Row& row) noexcept;
+/// What to do where one that is none was written; a clause without a full stop.
+[[nodiscard]] std::string InPlaceOfAnEntry(const Row& row);
 
 /// All rows, in the order of Id.
 [[nodiscard]] std::span<const Row> Catalogue();
+/// Those that the list `effects` of a rig file takes, in the same order.
+[[nodiscard]] std::span<const Row> EntryRows();
 [[nodiscard]] const Row& At(Id id);
 /// Null when no effect has this name.
 [[nodiscard]] const Row* Find(std::string_view name);
@@ -115,5 +126,7 @@ struct ByName {
 [[nodiscard]] std::span<const Row> RotorRows();
 [[nodiscard]] std::span<const Row> ExternalRows();
 [[nodiscard]] std::span<const Row> GearRows();
+[[nodiscard]] std::span<const Row> CoilRows();
+[[nodiscard]] std::span<const Row> BallRows();
 
 }  // namespace levitas::effect

@@ -60,6 +60,22 @@ enum class Id : std::uint8_t {
   kForceConstant,
   kCommandOffset,
   kMagneticCoupling,
+  kSupplyVoltage,
+  kCoilResistance,
+  kCoilInductance,
+  kInductanceProfile,
+  kVoltageDrop,
+  kDriveNonlinearity,
+  kDriveAsymmetry,
+  kCoilHeating,
+  kMotionEmf,
+  kMutualInductance,
+  kCurrentSensorGain,
+  kCurrentSensorOffset,
+  kCurrentSensorBandwidth,
+  kForceExponent,
+  kViscousDamping,
+  kDryFriction,
 };
 
 /// Where in the loop it sits.
@@ -71,7 +87,9 @@ enum class Place : std::uint8_t {
   kSupport,
   kExternal,
   kGear,
-  kSensor
+  kSensor,
+  kCoil,  ///< on a voltage, and its current probe
+  kBall   ///< between two magnets
 };
 
 inline constexpr std::size_t kMaxParameters = 8;

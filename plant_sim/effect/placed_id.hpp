@@ -3,12 +3,15 @@
 //
 // Use        Who treats effects place by place visits Placed(id), or switches over the enum of one
 //            place, without a default: the compiler then names what a new effect lacks.
-// New effect Placed() does not compile before the id has its place here; then the switches over
-//            that place's enum name the rest. The rows of the catalogue are checked against it.
+// New effect its row in the catalogue does not compile before the id has its place here; then the
+//            switches over that place's enum name the rest.
 // Thread     any; constant data. Failure: Placed() of no id is a programming error
 //            (std::logic_error).
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <initializer_list>
 #include <stdexcept>
 #include <type_traits>
 #include <variant>
@@ -81,72 +84,133 @@ enum class SensorId : IdNumber {
   kMainsPickup = NumberOf(Id::kMainsPickup),
   kSensorNoise = NumberOf(Id::kSensorNoise),
 };
+enum class CoilId : IdNumber {
+  kSupplyVoltage = NumberOf(Id::kSupplyVoltage),
+  kCoilResistance = NumberOf(Id::kCoilResistance),
+  kCoilInductance = NumberOf(Id::kCoilInductance),
+  kInductanceProfile = NumberOf(Id::kInductanceProfile),
+  kVoltageDrop = NumberOf(Id::kVoltageDrop),
+  kDriveNonlinearity = NumberOf(Id::kDriveNonlinearity),
+  kDriveAsymmetry = NumberOf(Id::kDriveAsymmetry),
+  kCoilHeating = NumberOf(Id::kCoilHeating),
+  kMotionEmf = NumberOf(Id::kMotionEmf),
+  kMutualInductance = NumberOf(Id::kMutualInductance),
+  kCurrentSensorGain = NumberOf(Id::kCurrentSensorGain),
+  kCurrentSensorOffset = NumberOf(Id::kCurrentSensorOffset),
+  kCurrentSensorBandwidth = NumberOf(Id::kCurrentSensorBandwidth),
+  kForceExponent = NumberOf(Id::kForceExponent),
+};
+enum class BallId : IdNumber {
+  kViscousDamping = NumberOf(Id::kViscousDamping),
+  kDryFriction = NumberOf(Id::kDryFriction),
+};
 
 /// In the order of Place.
-using PlacedId =
-    std::variant<TimingId, AmplifierId, MagnetId, RotorId, SupportId, ExternalId, GearId, SensorId>;
+using PlacedId = std::variant<TimingId, AmplifierId, MagnetId, RotorId, SupportId, ExternalId,
+                              GearId, SensorId, CoilId, BallId>;
 
 template <class PlaceId>
 [[nodiscard]] constexpr Id IdOf(PlaceId id) noexcept {
   return static_cast<Id>(id);
 }
 
-/// No default, and the cases are those of the enums above: the compiler names a new effect here.
+namespace placed_id {
+
+/// Of every number the place, or kNone.
+inline constexpr std::uint8_t kNone = 255;
+using Places = std::array<std::uint8_t, 256>;
+
+template <class PlaceId>
+constexpr void Put(Places& places, Place place, std::initializer_list<PlaceId> ids) {
+  for (const PlaceId id : ids) places[NumberOf(IdOf(id))] = static_cast<std::uint8_t>(place);
+}
+
+[[nodiscard]] constexpr Places MakePlaces() {
+  Places places{};
+  places.fill(kNone);
+  {
+    using enum TimingId;
+    Put(places, Place::kTiming, {kExtraDelay, kDroppedSamples, kSampleJitter});
+  }
+  {
+    using enum AmplifierId;
+    Put(places, Place::kAmplifier,
+        {kAmplifierBandwidth, kAmplifierSlew, kCurrentGain, kCommandOffset});
+  }
+  {
+    using enum MagnetId;
+    Put(places, Place::kMagnet,
+        {kForceConstant, kDisplacementStiffness, kCoilAsymmetry, kMagneticSaturation, kHysteresis,
+         kEddyCurrent, kMagneticCoupling, kAxisRotation});
+  }
+  {
+    using enum RotorId;
+    Put(places, Place::kRotor,
+        {kUnbalance, kShaftBow, kShaftAnisotropy, kModalFrequency, kModalDamping,
+         kGyroscopicInertia, kInternalDamping, kRotorMass, kBreathingCrack});
+  }
+  {
+    using enum SupportId;
+    Put(places, Place::kSupport, {kSupportMode, kTouchdownRub});
+  }
+  {
+    using enum ExternalId;
+    Put(places, Place::kExternal,
+        {kMisalignment, kCouplingStiffness, kCrossCoupledStiffness, kStaticLoad});
+  }
+  {
+    using enum GearId;
+    Put(places, Place::kGear,
+        {kMeshStiffness, kMeshStiffnessVariation, kBacklash, kMeshFriction, kTransmissionError,
+         kGearRunout, kToothCrack});
+  }
+  {
+    using enum SensorId;
+    Put(places, Place::kSensor,
+        {kSensorGain, kSensorOffset, kSensorNonlinearity, kSensorBandwidth, kSensorPosition,
+         kSensorRunout, kMainsPickup, kSensorNoise});
+  }
+  {
+    using enum CoilId;
+    Put(places, Place::kCoil,
+        {kSupplyVoltage, kCoilResistance, kCoilInductance, kInductanceProfile, kVoltageDrop,
+         kDriveNonlinearity, kDriveAsymmetry, kCoilHeating, kMotionEmf, kMutualInductance,
+         kCurrentSensorGain, kCurrentSensorOffset, kCurrentSensorBandwidth, kForceExponent});
+  }
+  {
+    using enum BallId;
+    Put(places, Place::kBall, {kViscousDamping, kDryFriction});
+  }
+  return places;
+}
+inline constexpr Places kPlaces = MakePlaces();
+
+}  // namespace placed_id
+
+/// An id without a place is refused while compiling where it is known then, as in the rows of the
+/// catalogue: a new one has to stand in an enum above and in MakePlaces().
 [[nodiscard]] constexpr PlacedId Placed(Id id) {
-  switch (id) {
-    case IdOf(TimingId::kExtraDelay):
-    case IdOf(TimingId::kDroppedSamples):
-    case IdOf(TimingId::kSampleJitter):
+  switch (static_cast<Place>(placed_id::kPlaces[NumberOf(id)])) {
+    case Place::kTiming:
       return static_cast<TimingId>(id);
-    case IdOf(AmplifierId::kAmplifierBandwidth):
-    case IdOf(AmplifierId::kAmplifierSlew):
-    case IdOf(AmplifierId::kCurrentGain):
-    case IdOf(AmplifierId::kCommandOffset):
+    case Place::kAmplifier:
       return static_cast<AmplifierId>(id);
-    case IdOf(MagnetId::kForceConstant):
-    case IdOf(MagnetId::kDisplacementStiffness):
-    case IdOf(MagnetId::kCoilAsymmetry):
-    case IdOf(MagnetId::kMagneticSaturation):
-    case IdOf(MagnetId::kHysteresis):
-    case IdOf(MagnetId::kEddyCurrent):
-    case IdOf(MagnetId::kMagneticCoupling):
-    case IdOf(MagnetId::kAxisRotation):
+    case Place::kMagnet:
       return static_cast<MagnetId>(id);
-    case IdOf(RotorId::kUnbalance):
-    case IdOf(RotorId::kShaftBow):
-    case IdOf(RotorId::kShaftAnisotropy):
-    case IdOf(RotorId::kModalFrequency):
-    case IdOf(RotorId::kModalDamping):
-    case IdOf(RotorId::kGyroscopicInertia):
-    case IdOf(RotorId::kInternalDamping):
-    case IdOf(RotorId::kRotorMass):
-    case IdOf(RotorId::kBreathingCrack):
+    case Place::kRotor:
       return static_cast<RotorId>(id);
-    case IdOf(SupportId::kSupportMode):
-    case IdOf(SupportId::kTouchdownRub):
+    case Place::kSupport:
       return static_cast<SupportId>(id);
-    case IdOf(ExternalId::kMisalignment):
-    case IdOf(ExternalId::kCouplingStiffness):
-    case IdOf(ExternalId::kCrossCoupledStiffness):
-    case IdOf(ExternalId::kStaticLoad):
+    case Place::kExternal:
       return static_cast<ExternalId>(id);
-    case IdOf(GearId::kMeshStiffness):
-    case IdOf(GearId::kMeshStiffnessVariation):
-    case IdOf(GearId::kBacklash):
-    case IdOf(GearId::kMeshFriction):
-    case IdOf(GearId::kTransmissionError):
-    case IdOf(GearId::kGearRunout):
-    case IdOf(GearId::kToothCrack):
+    case Place::kGear:
       return static_cast<GearId>(id);
-    case IdOf(SensorId::kSensorGain):
-    case IdOf(SensorId::kSensorOffset):
-    case IdOf(SensorId::kSensorNonlinearity):
-    case IdOf(SensorId::kSensorBandwidth):
-    case IdOf(SensorId::kSensorPosition):
-    case IdOf(SensorId::kSensorRunout):
-    case IdOf(SensorId::kMainsPickup):
-    case IdOf(SensorId::kSensorNoise):
+    case Place::kSensor:
       return static_cast<SensorId>(id);
+    case Place::kCoil:
+      return static_cast<CoilId>(id);
+    case Place::kBall:
+      return static_cast<BallId>(id);
   }
   throw std::logic_error("an effect without a place (plant_sim/effect/placed_id.hpp)");
 }

@@ -14,7 +14,7 @@ namespace {
 std::vector<Words> Collect() {
   std::vector<Words> all;
   for (const Row& row : Catalogue()) {
-    for (const auto rows : {WordsOfElectronics(), WordsOfMechanics()}) {
+    for (const auto rows : {WordsOfElectronics(), WordsOfMechanics(), WordsOfCoils()}) {
       std::copy_if(rows.begin(), rows.end(), std::back_inserter(all),
                    [&row](const Words& words) { return words.effect == row.name; });
     }

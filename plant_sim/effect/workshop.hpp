@@ -79,5 +79,6 @@ inline constexpr double kMostGain = kZoneASensitivity / (kZoneASensitivity - 1.0
 // The rows by place; one file each.
 [[nodiscard]] std::span<const Words> WordsOfElectronics();
 [[nodiscard]] std::span<const Words> WordsOfMechanics();
+[[nodiscard]] std::span<const Words> WordsOfCoils();
 
 }  // namespace levitas::effect

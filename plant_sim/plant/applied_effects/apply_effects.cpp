@@ -90,6 +90,8 @@ struct OwnValue {
   double operator()(effect::SupportId /*id*/) const noexcept { return effect::kOwn; }
   double operator()(effect::ExternalId /*id*/) const noexcept { return effect::kOwn; }
   double operator()(effect::GearId /*id*/) const noexcept { return effect::kOwn; }
+  double operator()(effect::CoilId /*id*/) const noexcept { return effect::kOwn; }
+  double operator()(effect::BallId /*id*/) const noexcept { return effect::kOwn; }
 
   double operator()(effect::AmplifierId id) const noexcept {
     using effect::AmplifierId;
@@ -257,6 +259,8 @@ void ApplyEffects(const PlantParameters& parameters, const EntryShapes& shapes,
         ApplyFromOutside(entry, values, shapes[i], now, model, slots);
         break;
       case effect::Place::kGear:
+      case effect::Place::kCoil:  // no entries: CheckEffects refuses them
+      case effect::Place::kBall:
         break;
     }
   }

@@ -118,6 +118,8 @@ void CheckEffects(const PlantConfig& config) {
   const auto& entries = config.effects;
   const std::size_t bearings = config.bearings.size();
   for (std::size_t i = 0; i < entries.size(); ++i) {
+    const effect::Row& row = effect::At(entries[i].id);
+    if (!effect::IsEntry(row)) Refuse(i, entries[i], effect::InPlaceOfAnEntry(row));
     CheckValues(i, entries[i]);
     CheckReference(i, entries[i], config);
     if (config.rotor.given && entries[i].id == effect::Id::kBreathingCrack) {

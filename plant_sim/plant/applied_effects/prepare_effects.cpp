@@ -45,6 +45,8 @@ struct ActingShapeOf {
   ActingShape operator()(effect::MagnetId /*id*/) const { return ActingShape::kNone; }
   ActingShape operator()(effect::SupportId /*id*/) const { return ActingShape::kNone; }
   ActingShape operator()(effect::GearId /*id*/) const { return ActingShape::kNone; }
+  ActingShape operator()(effect::CoilId /*id*/) const { return ActingShape::kNone; }
+  ActingShape operator()(effect::BallId /*id*/) const { return ActingShape::kNone; }
 
   ActingShape operator()(SensorId id) const {
     switch (id) {
@@ -150,6 +152,8 @@ struct Reserve {
   void operator()(effect::MagnetId /*id*/) const {}
   void operator()(SensorId /*id*/) const {}
   void operator()(effect::GearId /*id*/) const {}
+  void operator()(effect::CoilId /*id*/) const {}
+  void operator()(effect::BallId /*id*/) const {}
 
   void operator()(RotorId id) const {
     const std::vector<double> empty(layout.modes, 0.0);
@@ -299,6 +303,8 @@ struct Mark {
   }
 
   void operator()(effect::GearId /*id*/) const {}  // gear_effects.hpp
+  void operator()(effect::CoilId /*id*/) const {}  // no entries
+  void operator()(effect::BallId /*id*/) const {}
 };
 
 }  // namespace

@@ -72,7 +72,7 @@ std::shared_ptr<const PlantModel> QuietWith(const effect::EffectConfig& entry) {
 
 std::vector<effect::Id> AllIds() {
   std::vector<effect::Id> ids;
-  for (const effect::Row& row : effect::Catalogue()) {
+  for (const effect::Row& row : effect::EntryRows()) {
     if (row.place != effect::Place::kGear) ids.push_back(row.id);
   }
   return ids;

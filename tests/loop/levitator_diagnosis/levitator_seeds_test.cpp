@@ -73,7 +73,7 @@ TEST(LevitatorSeeds, AHealthyRigIsCalledHealthy) {
 
 TEST(LevitatorSeeds, AWeakerMagnetIsNamedOrTiedWithWhatWeighsTheSame) {
   std::string truth;
-  EXPECT_TRUE(Ask(7002, "current_gain", truth).right);
+  EXPECT_TRUE(Ask(7002, "force_constant", truth).right);
 }
 
 // Both coils' supply, resistance and dead band may hide 40 mA of command within their tolerances;

@@ -1,7 +1,10 @@
 // The effects of a rig file: what is read, and what is said of what cannot be.
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include "plant_sim/effect/catalogue.hpp"
+#include "plant_sim/plant/check_config.hpp"
 #include "tests/unit/configuration/full_samples.hpp"
 #include "tests/unit/configuration/samples.hpp"
 
@@ -51,7 +54,7 @@ TEST(Effects, OfEveryIdAreWrittenAndReadBackTheSame) {
   const RigFile gears = AllEffects(true);
   const RigFile one_rotor = AllEffects();
   ASSERT_EQ(one_rotor.plant.effects.size() + gears.plant.effects.size(),
-            effect::Catalogue().size());
+            effect::EntryRows().size());
   for (const RigFile& rig : {one_rotor, gears}) {
     const auto back = ParseRig(WriteRig(rig), "written.yaml").plant.effects;
     ASSERT_EQ(back.size(), rig.plant.effects.size());
@@ -68,6 +71,21 @@ TEST(Effects, OfEveryIdAreWrittenAndReadBackTheSame) {
   }
 }
 
+// A rig that no file describes meets the same refusal.
+TEST(Effects, OfCoilsOnAVoltageAreRefusedInAPlantAsInAFile) {
+  RigFile rig = ParseRig(kRig, "rig.yaml");
+  rig.plant.effects = {effect::ClearEntry(effect::Id::kCoilInductance)};
+  try {
+    plant::CheckEffects(rig.plant);
+    ADD_FAILURE() << "taken";
+  } catch (const std::invalid_argument& refused) {
+    EXPECT_STREQ(refused.what(),
+                 "effects[0] (coil_inductance): coils on a voltage have it by keys of their own; "
+                 "write time_constant_ms of amplifier.voltage instead, and leave it out for other "
+                 "coils; correct the rig description");
+  }
+}
+
 struct Refused {
   const char* effects;
   const char* said;
@@ -77,6 +95,11 @@ TEST(Effects, ThatCannotBeAreRefusedWithWhatIsAllowed) {
   for (const auto& [effects, said] : {
            Refused{"  - {id: eddy_curent, tau_us: 8}\n", "nearest eddy_current"},
            Refused{"  - {tau_us: 8}\n", "which effect"},
+           Refused{"  - {id: supply_voltage, ratio: 1.1}\n",
+                   "found supply_voltage; coils on a voltage have it by keys of their own; write "
+                   "steady of amplifier.voltage instead"},
+           Refused{"  - {id: dry_friction, force_n: 1}\n",
+                   "found dry_friction; no simulated rig has it; leave it out"},
            Refused{"  - {id: eddy_current}\n", "tau_us: missing"},
            Refused{"  - {id: eddy_current, tau_us: -1}\n", "found -1 us, allowed 0 to 100000 us"},
            Refused{"  - {id: eddy_current, tau_us: 8, width_a: 1}\n", "width_a"},

@@ -29,7 +29,7 @@ inline RigFile FullRig() {
 inline RigFile AllEffects(bool of_gears = false) {
   RigFile rig = of_gears ? LoadRig(FindConfig("geared_rotor_4dof", "rigs")) : FullRig();
   rig.plant.effects.clear();
-  for (const effect::Row& row : effect::Catalogue()) {
+  for (const effect::Row& row : effect::EntryRows()) {
     if ((row.scope == effect::Scope::kGear) != of_gears) continue;
     rig.plant.effects.push_back(effect::ClearEntry(row.id, 100.0));
     // A damping ratio or a noise has another own value than a frequency.

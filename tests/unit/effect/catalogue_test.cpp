@@ -53,6 +53,22 @@ const std::map<std::string, std::string>& Vocabulary() {
       {"static_load", "external"},
       {"support_mode", "support"},
       {"touchdown_rub", "support"},
+      {"supply_voltage", "coil"},
+      {"coil_resistance", "coil"},
+      {"coil_inductance", "coil"},
+      {"inductance_profile", "coil"},
+      {"voltage_drop", "coil"},
+      {"drive_nonlinearity", "coil"},
+      {"drive_asymmetry", "coil"},
+      {"coil_heating", "coil"},
+      {"motion_emf", "coil"},
+      {"mutual_inductance", "coil"},
+      {"current_sensor_gain", "coil"},
+      {"current_sensor_offset", "coil"},
+      {"current_sensor_bandwidth", "coil"},
+      {"force_exponent", "coil"},
+      {"viscous_damping", "ball"},
+      {"dry_friction", "ball"},
   };
   return words;
 }
@@ -133,6 +149,22 @@ TEST(Catalogue, EndsFileAndProgramNamesOfOneQuantityInUnitsOfOneKind) {
   }
 }
 
+TEST(Catalogue, HasNoEntryForCoilsOnAVoltageAndABallAndSaysWhatToWriteInstead) {
+  std::vector<Id> entries;
+  for (const Row& row : EntryRows()) entries.push_back(row.id);
+  EXPECT_TRUE(std::is_sorted(entries.begin(), entries.end()));
+  for (const Row& row : Catalogue()) {
+    const bool is_entry = std::binary_search(entries.begin(), entries.end(), row.id);
+    EXPECT_EQ(IsEntry(row), is_entry) << row.name;
+    EXPECT_EQ(is_entry, row.place != Place::kCoil && row.place != Place::kBall) << row.name;
+    EXPECT_TRUE(row.rig_key.empty() || !is_entry) << row.name;
+    if (is_entry) continue;
+    const bool leave_out = InPlaceOfAnEntry(row) == "no simulated rig has it; leave it out";
+    EXPECT_EQ(leave_out, row.rig_key.empty()) << row.name;
+    EXPECT_NE(InPlaceOfAnEntry(row).find(row.rig_key), std::string::npos) << row.name;
+  }
+}
+
 TEST(ClearEntry, TakesAbsoluteSizesAsTheyAreAndRelativeOnesTimesTheRigsOwn) {
   EXPECT_EQ(ClearEntry(Id::kEddyCurrent).values[0], 50e-6);
   EXPECT_EQ(ClearEntry(Id::kAmplifierBandwidth, 720.0).values[0], 0.7 * 720.0);
@@ -141,7 +173,7 @@ TEST(ClearEntry, TakesAbsoluteSizesAsTheyAreAndRelativeOnesTimesTheRigsOwn) {
 TEST(Catalogue, ListsCrossABorderInTheirOrderAndWithoutWhatItLacks) {
   const std::vector<Id> ids{Id::kUnbalance, Id::kExtraDelay};
   EXPECT_EQ(NamesOf(ids), (std::vector<std::string>{"unbalance", "extra_delay"}));
-  const std::vector<std::string> names{"unbalance", "coil_resistance", "extra_delay"};
+  const std::vector<std::string> names{"unbalance", "no_such_effect", "extra_delay"};
   EXPECT_EQ(IdsOf(names), ids);
 }
 

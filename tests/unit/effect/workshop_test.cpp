@@ -18,7 +18,8 @@ TEST(Workshop, HasOneRowForEveryEffectOfTheCatalogueAndNoOther) {
     EXPECT_EQ(Workshop()[i].effect, Catalogue()[i].name);
     EXPECT_EQ(&WordsOf(Catalogue()[i].id), &Workshop()[i]);
   }
-  EXPECT_EQ(WordsOfElectronics().size() + WordsOfMechanics().size(), Catalogue().size());
+  EXPECT_EQ(WordsOfElectronics().size() + WordsOfMechanics().size() + WordsOfCoils().size(),
+            Catalogue().size());
   EXPECT_EQ(FindWords("no_such_effect"), nullptr);
 }
 

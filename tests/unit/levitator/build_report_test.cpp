@@ -4,12 +4,26 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "diagnosis/levitator/causes.hpp"
 #include "diagnosis/report/advice.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 #include "tests/unit/levitator/rig.hpp"
 
 namespace levitas::levitator {
 namespace {
+
+std::string NameOf(const diagnosis::Hypothesis& cause) {
+  return std::string(effect::At(cause.effect).name);
+}
+
+diagnosis::Candidate Refitted(const diagnosis::Hypothesis& cause, double nat) {
+  const auto at = std::ranges::find_if(Causes(), [&](const diagnosis::Hypothesis& h) {
+    return h.effect == cause.effect && h.terms == cause.terms;
+  });
+  return {cause.effect, cause.place, nat, static_cast<std::size_t>(at - Causes().begin()), true};
+}
 
 /// Two seconds of a coil that is modelled exactly, but for the noise of its probe.
 diagnosis::DiagnosisReport ReportOf(const CauseSet& causes) {
@@ -19,31 +33,31 @@ diagnosis::DiagnosisReport ReportOf(const CauseSet& causes) {
   result.found.causes = causes;
   result.found.calibrated.theta = result.found.extended.theta = Zeros(1);
   result.found.calibrated.deviation = result.found.extended.deviation = Zeros(1);
-  for (const std::size_t c : causes) {
-    result.found.scores.push_back({.cause = c, .nat = 100.0, .named = true, .refitted = true});
+  for (const diagnosis::Hypothesis& cause : causes) {
+    result.found.in_place.push_back({Refitted(cause, 100.0)});
   }
   const Series series = test::LivelySeries(nominal, Zeros(1), 2000, 4);
   return BuildReport(rig, nominal, {series}, result);
 }
 
 TEST(LevitatorReport, SaysThePlaceOfEveryCauseAlsoOfThoseNoRotorHas) {
-  for (std::size_t c = 0; c < Causes().size(); ++c) {
-    const diagnosis::DiagnosisReport report = ReportOf({c});
+  for (const diagnosis::Hypothesis& cause : Causes()) {
+    const diagnosis::DiagnosisReport report = ReportOf({cause});
     ASSERT_EQ(report.causes.size(), 1U);
-    EXPECT_EQ(report.causes[0].effect, Causes()[c].effect);
-    EXPECT_EQ(report.place, Table()[Causes()[c].moves.front()].place) << Causes()[c].effect;
-    EXPECT_NE(report.place, "") << Causes()[c].effect;
+    EXPECT_EQ(report.causes[0].effect, NameOf(cause));
+    EXPECT_EQ(report.place, effect::Name(effect::At(cause.effect).place)) << NameOf(cause);
+    EXPECT_NE(report.place, "") << NameOf(cause);
   }
 }
 
 TEST(LevitatorReport, SaysEveryCauseInWordsWithWhatToCheck) {
-  for (std::size_t c = 0; c < Causes().size(); ++c) {
-    const diagnosis::DiagnosisReport report = ReportOf({c});
-    const effect::Words* words = diagnosis::FindWords(report, Causes()[c].effect);
-    ASSERT_NE(words, nullptr) << Causes()[c].effect;
-    EXPECT_NE(report.headline.find("[" + Causes()[c].effect + "]"), std::string::npos);
+  for (const diagnosis::Hypothesis& cause : Causes()) {
+    const diagnosis::DiagnosisReport report = ReportOf({cause});
+    const effect::Words* words = diagnosis::FindWords(report, NameOf(cause));
+    ASSERT_NE(words, nullptr) << NameOf(cause);
+    EXPECT_NE(report.headline.find("[" + NameOf(cause) + "]"), std::string::npos);
     EXPECT_NE(report.action.find(words->check), std::string::npos) << report.action;
-    EXPECT_FALSE(report.parameters.empty()) << Causes()[c].effect;
+    EXPECT_FALSE(report.parameters.empty()) << NameOf(cause);
   }
 }
 
@@ -58,31 +72,44 @@ TEST(LevitatorReport, OfAHealthyRigHasNoCauseNoPlaceAndNothingToRecord) {
 
 TEST(LevitatorReport, TiesACandidateThatExplainsNearlyAsMuchInACausesPlace) {
   Found found;
-  const auto index = [](const std::string& effect) {
-    for (std::size_t c = 0; c < Causes().size(); ++c) {
-      if (Causes()[c].effect == effect) return c;
-    }
-    return Causes().size();
+  const auto of = [](effect::Id effect) {
+    return *std::ranges::find(Causes(), effect, &diagnosis::Hypothesis::effect);
   };
-  const std::size_t named = index("rotor_mass");
-  found.causes = {named};
-  found.scores = {{.cause = named, .nat = 300.0, .named = true, .refitted = true}};
-  const auto add = [&](const char* effect, double behind_nat, bool refitted) {
-    found.scores.push_back({.cause = index(effect),
-                            .nat = 300.0 - behind_nat,
-                            .behind_nat = behind_nat,
-                            .refitted = refitted,
-                            .instead_of = named});
+  found.causes = {of(effect::Id::kRotorMass)};
+  found.in_place = {{Refitted(found.causes.front(), 300.0)}};
+  const auto add = [&](effect::Id effect, double behind_nat, bool refitted) {
+    found.in_place.front().push_back(Refitted(of(effect), 300.0 - behind_nat));
+    found.in_place.front().back().refitted = refitted;
   };
-  add("current_gain", 2.0, true);
-  add("static_load", 40.0, true);
-  add("sensor_gain", 2.0, false);  // from the linearised model alone
+  add(effect::Id::kForceConstant, 2.0, true);
+  add(effect::Id::kStaticLoad, 40.0, true);
+  add(effect::Id::kSensorGain, 2.0, false);  // from the linearised model alone
   diagnosis::DiagnosisReport report;
   AddCauses(found, report);
-  EXPECT_EQ(report.also_possible, std::vector<std::string>{"current_gain"});
+  EXPECT_EQ(report.also_possible, std::vector<std::string>{"force_constant"});
   ASSERT_EQ(report.candidates.size(), 4U);
   EXPECT_EQ(report.candidates[1].reason, "not separable from rotor_mass");
-  EXPECT_EQ(report.candidates[2].reason, "explains 40 nat less than rotor_mass in its place");
+  EXPECT_EQ(report.candidates[2].reason, "explains 2 nat less than rotor_mass in its place");
+  EXPECT_EQ(report.candidates[3].reason, "explains 40 nat less than rotor_mass in its place");
+}
+
+// Of two causes each candidate is told about the one in whose place it does most.
+TEST(LevitatorReport, TellsOfACandidateInThePlaceOfTheCauseThatItDoesMostFor) {
+  Found found;
+  const auto of = [](effect::Id effect) {
+    return *std::ranges::find(Causes(), effect, &diagnosis::Hypothesis::effect);
+  };
+  found.causes = {of(effect::Id::kExtraDelay), of(effect::Id::kRotorMass)};
+  const auto other = [&](double nat) { return Refitted(of(effect::Id::kForceConstant), nat); };
+  found.in_place = {{Refitted(found.causes[0], 900.0), other(10.0)},
+                    {Refitted(found.causes[1], 300.0), other(299.0)}};
+  diagnosis::DiagnosisReport report;
+  AddCauses(found, report);
+  EXPECT_TRUE(report.also_possible.empty());
+  EXPECT_EQ(report.ties[1].others, std::vector<std::string>{"force_constant"});
+  ASSERT_EQ(report.candidates.size(), 3U);
+  EXPECT_EQ(report.candidates[2].evidence_nat, 299.0);
+  EXPECT_EQ(report.candidates[2].reason, "not separable from rotor_mass");
 }
 
 }  // namespace

@@ -7,48 +7,49 @@
 #include <algorithm>
 
 #include "diagnosis/levitator/search.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 #include "tests/unit/levitator/rig.hpp"
 
 namespace levitas::levitator {
 namespace {
 
-std::size_t CauseOf(const std::string& effect) {
-  const auto& causes = Causes();
-  const auto found = std::find_if(causes.begin(), causes.end(),
-                                  [&](const Cause& cause) { return cause.effect == effect; });
-  return static_cast<std::size_t>(found - causes.begin());
+const diagnosis::Hypothesis& CauseOf(effect::Id effect) {
+  return *std::ranges::find(Causes(), effect, &diagnosis::Hypothesis::effect);
 }
 
 TEST(Causes, MoveParametersOfTheTableAndPayForTheirPlaces) {
-  for (const Cause& cause : Causes()) {
-    ASSERT_FALSE(cause.moves.empty());
-    EXPECT_EQ(cause.effect, Table()[cause.moves.front()].effect);
+  for (const diagnosis::Hypothesis& cause : Causes()) {
+    ASSERT_FALSE(cause.terms.empty());
+    EXPECT_EQ(cause.effect, Table()[cause.terms.front()].effect);
     double prior = 0.0;
-    for (const Cause& other : Causes()) {
+    for (const diagnosis::Hypothesis& other : Causes()) {
       if (other.effect == cause.effect) prior += std::exp(other.log_prior);
     }
-    EXPECT_NEAR(prior, 1.0, 1e-12) << cause.effect;
+    EXPECT_NEAR(prior, 1.0, 1e-12) << effect::At(cause.effect).name;
   }
 }
 
 TEST(Causes, ReachEveryParameter) {
   for (std::size_t i = 0; i < kParameters; ++i) {
-    EXPECT_TRUE(std::any_of(Causes().begin(), Causes().end(), [&](const Cause& cause) {
-      return std::find(cause.moves.begin(), cause.moves.end(), i) != cause.moves.end();
-    })) << Table()[i].effect;
+    EXPECT_TRUE(std::any_of(Causes().begin(), Causes().end(),
+                            [&](const diagnosis::Hypothesis& cause) {
+                              return std::find(cause.terms.begin(), cause.terms.end(), i) !=
+                                     cause.terms.end();
+                            }))
+        << effect::At(Table()[i].effect).name;
   }
 }
 
 TEST(Alike, HoldsBothWaysAndNotForOneself) {
-  EXPECT_TRUE(Alike("current_gain", "rotor_mass"));
-  EXPECT_TRUE(Alike("rotor_mass", "current_gain"));
-  EXPECT_FALSE(Alike("rotor_mass", "rotor_mass"));
-  EXPECT_FALSE(Alike("rotor_mass", "extra_delay"));
+  EXPECT_TRUE(Alike(effect::Id::kForceConstant, effect::Id::kRotorMass));
+  EXPECT_TRUE(Alike(effect::Id::kRotorMass, effect::Id::kForceConstant));
+  EXPECT_FALSE(Alike(effect::Id::kRotorMass, effect::Id::kRotorMass));
+  EXPECT_FALSE(Alike(effect::Id::kRotorMass, effect::Id::kExtraDelay));
 }
 
 TEST(Freedom, BoundsTolerancesAndSetsACauseFree) {
   const Freedom healthy = FreedomOf({}, 1);
-  const Freedom hidden = FreedomOf({CauseOf("coil_inductance")}, 1);
+  const Freedom hidden = FreedomOf({CauseOf(effect::Id::kCoilInductance)}, 1);
   ASSERT_EQ(healthy.active, hidden.active);  // the inductance has a tolerance, too
   const auto at = static_cast<Eigen::Index>(
       std::find(healthy.active.begin(), healthy.active.end(), kInductance) -
@@ -59,9 +60,9 @@ TEST(Freedom, BoundsTolerancesAndSetsACauseFree) {
 }
 
 TEST(Freedom, AddsWhatNoHealthyRigHas) {
-  EXPECT_EQ(FreedomOf({CauseOf("dry_friction")}, 2).active.size(),
+  EXPECT_EQ(FreedomOf({CauseOf(effect::Id::kDryFriction)}, 2).active.size(),
             FreedomOf({}, 2).active.size() + 1);
-  EXPECT_EQ(FreedomOf({CauseOf("dry_friction")}, 2).one_sided, 1U);
+  EXPECT_EQ(FreedomOf({CauseOf(effect::Id::kDryFriction)}, 2).one_sided, 1U);
 }
 
 // Of two values whose sum is known far better than either, neither may move alone.
@@ -112,10 +113,12 @@ TEST_F(FitOfAKnownRig, FindsItsParametersWithinThreeOfTheirDeviations) {
   const Fitter fitter(misfit);
   const Filters noise = misfit.Whiten(truth_, 0);
   const Fitted fitted =
-      fitter.Fit({CauseOf("inductance_profile"), CauseOf("extra_delay")}, Zeros(1), noise, 12);
+      fitter.Fit({CauseOf(effect::Id::kInductanceProfile), CauseOf(effect::Id::kExtraDelay)},
+                 Zeros(1), noise, 12);
   for (const Parameter p : {kProfile, kDelay}) {
-    EXPECT_NEAR(fitted.theta[p], truth_[p], 3.0 * fitted.deviation[p]) << At(p).effect;
-    EXPECT_LT(fitted.deviation[p], 0.1 * At(p).wide) << At(p).effect;
+    EXPECT_NEAR(fitted.theta[p], truth_[p], 3.0 * fitted.deviation[p])
+        << effect::At(At(p).effect).name;
+    EXPECT_LT(fitted.deviation[p], 0.1 * At(p).wide) << effect::At(At(p).effect).name;
   }
 }
 
@@ -123,7 +126,7 @@ TEST_F(FitOfAKnownRig, SaysMoreForTheRightSetThanForAPartOfIt) {
   const Misfit misfit(rig_, series_);
   const Fitter fitter(misfit);
   const Filters noise = misfit.Whiten(truth_, 0);
-  const CauseSet both{CauseOf("inductance_profile"), CauseOf("extra_delay")};
+  const CauseSet both{CauseOf(effect::Id::kInductanceProfile), CauseOf(effect::Id::kExtraDelay)};
   const double whole = fitter.Fit(both, Zeros(1), noise, 12).evidence;
   const double part = fitter.Fit({both.front()}, Zeros(1), noise, 12).evidence;
   EXPECT_GT(whole, part + 50.0);
@@ -133,14 +136,15 @@ TEST_F(FitOfAKnownRig, ScreensTheMissingCauseAsTheBest) {
   const Misfit misfit(rig_, series_);
   const Fitter fitter(misfit);
   const Filters noise = misfit.Whiten(truth_, 0);
-  const CauseSet rest{CauseOf("inductance_profile")};
+  const CauseSet rest{CauseOf(effect::Id::kInductanceProfile)};
   const Fitted fitted = fitter.Fit(rest, Zeros(1), noise, 12);
   const std::vector<double> gain = fitter.Screen(rest, fitted, noise);
   const auto best =
       static_cast<std::size_t>(std::max_element(gain.begin(), gain.end()) - gain.begin());
   // A probe that is late reads as a delay of the command does.
-  EXPECT_TRUE(Causes()[best].effect == "extra_delay" || Alike(Causes()[best].effect, "extra_delay"))
-      << Causes()[best].effect;
+  EXPECT_TRUE(Causes()[best].effect == effect::Id::kExtraDelay ||
+              Alike(Causes()[best].effect, effect::Id::kExtraDelay))
+      << effect::At(Causes()[best].effect).name;
 }
 
 TEST(Whitening, LeavesUnitVarianceOfWhatAModelLeaves) {

@@ -11,6 +11,7 @@
 #include "diagnosis/levitator/coil_run.hpp"
 #include "diagnosis/levitator/levitator_result.hpp"
 #include "diagnosis/levitator/motion_run.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 #include "tests/support/effect_entry.hpp"
 #include "tests/unit/levitator/rig.hpp"
 
@@ -149,7 +150,7 @@ TEST(Origin, AnExtendedFileIsTheModelThatWasFound) {
     cases.back()[i] = Everything()[i];
   }
   for (std::size_t c = 0; c < cases.size(); ++c) {
-    const std::string name = c == 0 ? "all" : std::string(Table()[c - 1].effect);
+    const std::string name = c == 0 ? "all" : std::string(effect::At(Table()[c - 1].effect).name);
     const NominalRig read = NominalOf(Extended(file, cases[c]));
     const CoilRun found = RunCoils(plain, series, cases[c], 0);
     const CoilRun known = RunCoils(read, series, Zeros(1), 0);

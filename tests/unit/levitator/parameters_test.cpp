@@ -8,32 +8,35 @@
 #include <string>
 #include <utility>
 
+#include "plant_sim/effect/catalogue.hpp"
+
 namespace levitas::levitator {
 namespace {
 
 TEST(ParameterTable, HasItsRowsInTheOrderOfTheirNames) {
   EXPECT_EQ(Table().size(), static_cast<std::size_t>(kParameters));
-  EXPECT_EQ(At(kDelay).effect, "extra_delay");
+  EXPECT_EQ(At(kDelay).effect, effect::Id::kExtraDelay);
   EXPECT_EQ(At(kAwayInductance).name, "ratio_away");
-  EXPECT_EQ(At(kProbeGain).effect, "current_sensor_gain");
-  EXPECT_EQ(At(kForce).effect, "current_gain");
-  EXPECT_EQ(At(kForceAway).effect, "coil_asymmetry");
+  EXPECT_EQ(At(kProbeGain).effect, effect::Id::kCurrentSensorGain);
+  EXPECT_EQ(At(kForce).effect, effect::Id::kForceConstant);
+  EXPECT_EQ(At(kForceAway).effect, effect::Id::kCoilAsymmetry);
   EXPECT_EQ(At(kSensorCube).name, "a3");
-  EXPECT_EQ(At(kMass).effect, "rotor_mass");
-  EXPECT_EQ(At(kSpring).effect, "coupling_stiffness");
+  EXPECT_EQ(At(kMass).effect, effect::Id::kRotorMass);
+  EXPECT_EQ(At(kSpring).effect, effect::Id::kCouplingStiffness);
 }
 
 // The rig file is 0, so every bound must let it through; a ratio of -1 would be no coil at all.
 TEST(ParameterTable, LetsEveryRigFileBeHealthyAndEveryCauseBeLargerThanItsTolerance) {
   std::set<std::pair<std::string, std::string>> names;
   for (const Row& row : Table()) {
-    EXPECT_LE(row.least, 0.0) << row.effect;
-    EXPECT_GE(row.tolerance, 0.0) << row.effect;
-    EXPECT_GT(row.wide, row.tolerance) << row.effect;
+    const std::string effect(effect::At(row.effect).name);
+    EXPECT_LE(row.least, 0.0) << effect;
+    EXPECT_GE(row.tolerance, 0.0) << effect;
+    EXPECT_GT(row.wide, row.tolerance) << effect;
     if (row.name.starts_with("ratio")) {
-      EXPECT_GT(row.least, -1.0) << row.effect;
+      EXPECT_GT(row.least, -1.0) << effect;
     }
-    EXPECT_TRUE(names.emplace(row.effect, row.name).second) << row.effect << " twice";
+    EXPECT_TRUE(names.emplace(effect, row.name).second) << effect << " twice";
   }
 }
 

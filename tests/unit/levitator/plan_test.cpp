@@ -49,15 +49,15 @@ TEST(LevitatorPlan, ShakesTheBallForALoadAndSaysWhy) {
 }
 
 TEST(LevitatorPlan, WritesNoScenarioForWhatNoRecordCanTell) {
-  const diagnosis::DiagnosisReport answer = Tied("rotor_mass", {"current_gain"});
+  const diagnosis::DiagnosisReport answer = Tied("rotor_mass", {"force_constant"});
   EXPECT_EQ(PlanScenario(test::LevitatorFile(), answer), "");
   EXPECT_THAT(Separations(answer), ElementsAre(HasSubstr("weighed")));
 }
 
 TEST(LevitatorPlan, TellsOnceWhatSeparatesSeveralAndWhatOfThemNothingDoes) {
-  const auto words = Separations(Tied("static_load", {"rotor_mass", "current_gain"}));
-  EXPECT_THAT(words, ElementsAre(StartsWith("static_load from rotor_mass, current_gain: "),
-                                 StartsWith("rotor_mass from current_gain: ")));
+  const auto words = Separations(Tied("static_load", {"rotor_mass", "force_constant"}));
+  EXPECT_THAT(words, ElementsAre(StartsWith("static_load from rotor_mass, force_constant: "),
+                                 StartsWith("rotor_mass from force_constant: ")));
 }
 
 TEST(LevitatorPlan, HasNothingToSeparateWithoutATie) {
@@ -73,7 +73,7 @@ TEST(LevitatorPlan, DoesAllItCanForARemainderWithoutAName) {
 }
 
 TEST(LevitatorPlan, AlsoHasAWayForCausesThatItDoesNotKnowTogether) {
-  const diagnosis::DiagnosisReport answer = Tied("coil_heating", {"magnet_coupling"});
+  const diagnosis::DiagnosisReport answer = Tied("coil_heating", {"mutual_inductance"});
   EXPECT_EQ(Read(PlanScenario(test::LevitatorFile(), answer)).steps.size(), 5U);
 }
 

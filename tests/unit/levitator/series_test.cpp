@@ -120,8 +120,8 @@ TEST(ReportValues, AreTheKeysAndUnitsOfTheRigFile) {
   found.extended.deviation[kSensorOffset] = 10e-6;
   found.extended.theta[kDelay] = 1.4;
   found.extended.deviation[kDelay] = 0.1;
-  for (std::size_t c = 0; c < Causes().size(); ++c) {
-    if (std::string_view(Causes()[c].effect) == "extra_delay") found.causes = {c};
+  for (const diagnosis::Hypothesis& cause : Causes()) {
+    if (cause.effect == effect::Id::kExtraDelay) found.causes = {cause};
   }
   ASSERT_EQ(found.causes.size(), 1U);
   const auto parameters = ReportParameters(rig, Zeros(0), found);
@@ -152,8 +152,8 @@ Found DelayFound() {
   found.extended.theta[kForce] = -0.03;
   found.extended.theta[kSensorOffset] = 60e-6;
   found.extended.theta[Own(0, kOwnOffset)] = 20e-6;
-  for (std::size_t c = 0; c < Causes().size(); ++c) {
-    if (Causes()[c].effect == "extra_delay") found.causes = {c};
+  for (const diagnosis::Hypothesis& cause : Causes()) {
+    if (cause.effect == effect::Id::kExtraDelay) found.causes = {cause};
   }
   return found;
 }

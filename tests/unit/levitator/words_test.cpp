@@ -1,4 +1,4 @@
-// Words of the workshop for a ball: there for every parameter, and about parameters that exist.
+// Words of the workshop: there for every parameter of a ball, its own about parameters that exist.
 
 #include "diagnosis/levitator/words.hpp"
 
@@ -8,18 +8,15 @@
 #include <set>
 
 #include "diagnosis/levitator/parameters.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::levitator {
 namespace {
 
-bool HasOwnWords(std::string_view effect) {
-  return std::ranges::any_of(OwnWords(),
-                             [&](const effect::Words& words) { return words.effect == effect; });
-}
-
-TEST(OwnWords, LeaveNoEffectOfTheTableWithoutWords) {
+TEST(Words, AreThereForEveryEffectOfTheTable) {
   for (const Row& row : Table()) {
-    EXPECT_TRUE(HasOwnWords(row.effect) || effect::FindWords(row.effect) != nullptr) << row.effect;
+    const std::string_view name = effect::At(row.effect).name;
+    EXPECT_NE(effect::FindWords(name), nullptr) << name;
   }
 }
 
@@ -28,7 +25,7 @@ TEST(OwnWords, AreSaidOnceOfEffectsOfTheTableWithTheStemOfAParameterAsSize) {
   for (const effect::Words& words : OwnWords()) {
     EXPECT_TRUE(said.insert(words.effect).second) << words.effect << " twice";
     EXPECT_TRUE(std::ranges::any_of(Table(), [&](const Row& row) {
-      return row.effect == words.effect && row.name.starts_with(words.size);
+      return effect::At(row.effect).name == words.effect && row.name.starts_with(words.size);
     })) << words.effect;
   }
 }

@@ -81,6 +81,18 @@ TEST_F(HypothesesTest, AHarmonicMovesItsCosineAndItsSine) {
   EXPECT_EQ(h.directions.cols(), 2);
 }
 
+TEST_F(HypothesesTest, TheSameIsTheEffectAtItsPlaceWhateverItsColumns) {
+  const Hypothesis& own = Of(effect::Id::kCurrentGain, "nde");
+  Hypothesis held = own;
+  held.directions *= 0.2;
+  EXPECT_TRUE(AreSame(own, held));
+  EXPECT_FALSE(AreSame(own, Of(effect::Id::kCurrentGain, "de")));
+  EXPECT_FALSE(AreSame(own, Of(effect::Id::kSensorGain, "nde")));
+  EXPECT_TRUE(IsAmong({Of(effect::Id::kCurrentGain, "de"), own}, held));
+  EXPECT_FALSE(IsAmong({Of(effect::Id::kCurrentGain, "de")}, own));
+  EXPECT_FALSE(IsAmong({}, own));
+}
+
 TEST_F(HypothesesTest, ASignIsAskedOfSingleAmountsOnly) {
   EXPECT_TRUE(Of(effect::Id::kEddyCurrent, "de_x").positive);
   EXPECT_FALSE(Of(effect::Id::kEddyCurrent, "every axis by itself").positive);

@@ -63,9 +63,9 @@ TEST(StatedFault, OfBendingIsNoneOnARotorThatDoesNotBend) {
 }
 
 // Seven effects are of teeth, and no term describes the scatter of sampling instants.
-TEST(StatedFaults, AreAllOfTheCatalogueButTeethAndJitterInItsOrder) {
+TEST(StatedFaults, AreAllEntriesOfTheCatalogueButTeethAndJitterInItsOrder) {
   const std::vector<StatedFault> all = StatedFaults(TheRig());
-  EXPECT_EQ(all.size(), effect::Catalogue().size() - 8U);
+  EXPECT_EQ(all.size(), effect::EntryRows().size() - 8U);
   for (const StatedFault& one : all) {
     EXPECT_NE(effect::At(one.entry.id).place, effect::Place::kGear);
     EXPECT_NE(one.entry.id, effect::Id::kSampleJitter);
