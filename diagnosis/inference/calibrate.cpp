@@ -6,6 +6,7 @@
 
 #include "common/problem.hpp"
 #include "diagnosis/inference/coloured.hpp"
+#include "diagnosis/inference/frequency_scan.hpp"
 #include "diagnosis/inference/residual.hpp"
 
 namespace levitas::diagnosis {
@@ -24,6 +25,11 @@ bool IsColoured(const Search& search, const std::vector<Record>& records, const 
   return TakesAway(search.WhitenerOf(runs, kWhiteningOrder), search.WhitenerOf(runs, 0), kLoud);
 }
 
+bool IsBetter(const Refiner& refiner, const Refined& fit, const Refined& than) {
+  return fit.ok && (!than.ok || refiner.Misfit(fit.point, kWhiteningOrder) <
+                                    refiner.Misfit(than.point, kWhiteningOrder));
+}
+
 /// From the nominal rig: a fast observer on a few rows, then the one of `gains`. Where that ends
 /// with what a filter takes for colour, also without the fast one; what fits better stays. A filter
 /// that hides an orbit leaves more than it claims, and Misfit counts that.
@@ -39,10 +45,8 @@ Point FromFar(const RigView& rig, const Search& search, const std::vector<Term>&
       refiner.Approach(coarse.ok ? coarse.point : file, kWhiteningOrder, kStartPasses);
   if (fine.ok && !IsColoured(search, records, gains, fine.point)) return fine.point;
   const Refined direct = refiner.Approach(file, kWhiteningOrder, kStartPasses);
-  if (!direct.ok) return fine.ok ? fine.point : file;
-  const bool better = !fine.ok || refiner.Misfit(direct.point, kWhiteningOrder) <
-                                      refiner.Misfit(fine.point, kWhiteningOrder);
-  return better ? direct.point : fine.point;
+  if (IsBetter(refiner, direct, fine)) return direct.point;
+  return fine.ok ? fine.point : file;
 }
 
 /// The records of a rotor that stands; none where all do, or none does.
@@ -60,6 +64,22 @@ bool IsLost(const RigView& rig, const Search& search, const std::vector<Record>&
             const Gains& gains, const Refined& fit) {
   constexpr double kFar = 100.0;  // standard deviations of the worst band
   return !fit.ok || !(AnalyseResidual(rig, search.Run(records, gains, fit.point)).sigma < kFar);
+}
+
+/// The better of the fit and of one that begins at another frequency of a mode, if there is one.
+Refined OrFromOtherFrequencies(const Search& search, const std::vector<Term>& terms,
+                               const std::vector<Record>& all, const ObserverSpeed& speed,
+                               const Refiner& refiner, int passes, Refined fit) {
+  if (!fit.ok) return fit;
+  const RigView& rig = search.rig();
+  const std::vector<Record> few = Spans(all, kFastRows, rig.period_s);
+  const Gains gains = search.DesignGains(few, speed);
+  const Refiner coarse(search, terms, few, gains, rig.axes);
+  const Point start = AlongFrequencies(
+      terms, [&coarse](const Point& at) { return coarse.Misfit(at, kWhiteningOrder); }, fit.point);
+  if (start == fit.point) return fit;
+  Refined again = refiner.Approach(start, kWhiteningOrder, passes);
+  return IsBetter(refiner, again, fit) ? again : fit;
 }
 
 }  // namespace
@@ -91,7 +111,8 @@ Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::
   const Point start = FromFar(rig, cautious, held, Spans(all, kFastRows, rig.period_s), part,
                               cautious.DesignGains(part, speed));
   const Refiner refiner(search, terms, records, gains, rig.axes);
-  Refined best = refiner.Approach(start, kWhiteningOrder, passes);
+  Refined best = OrFromOtherFrequencies(search, terms, all, speed, refiner, passes,
+                                        refiner.Approach(start, kWhiteningOrder, passes));
   const std::vector<Record> resting = AtRest(all);
   if (resting.empty() || !IsLost(rig, search, records, gains, best)) return best;
   const std::vector<Record> few = Spans(resting, kStartRows, rig.period_s);
@@ -101,13 +122,9 @@ Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::
   const Gains part_gains = search.DesignGains(part, speed);
   const Refiner partly(search, terms, part, part_gains, rig.axes);
   const Refined begun = partly.Approach(other, kWhiteningOrder, kSecondPasses);
-  if (!begun.ok || (best.ok && !(partly.Misfit(begun.point, kWhiteningOrder) <
-                                 partly.Misfit(best.point, kWhiteningOrder))))
-    return best;
+  if (!IsBetter(partly, begun, best)) return best;
   Refined again = refiner.Approach(begun.point, kWhiteningOrder, passes);
-  const bool better = again.ok && (!best.ok || refiner.Misfit(again.point, kWhiteningOrder) <
-                                                   refiner.Misfit(best.point, kWhiteningOrder));
-  return better ? again : best;
+  return IsBetter(refiner, again, best) ? again : best;
 }
 
 std::vector<Term> LearnFromHealthy(const RigView& rig, const std::vector<Record>& healthy,
