@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
+#include "common/problem.hpp"
 #include "configuration/schema/schema.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 #include "plant_sim/plant/check_config.hpp"
@@ -133,6 +135,10 @@ void Describe(Visitor& v, const RigFile& rig, EffectConfig& entry) {
   for (const effect::Row& row : rows) names.push_back(row.name);
   const auto own =
       std::ranges::find_if(rows, [&](const effect::Row& row) { return row.id == entry.id; });
+  if (own == rows.end()) {
+    const effect::Row& row = effect::At(entry.id);
+    throw BadInput(std::string(row.name) + ": " + effect::InPlaceOfAnEntry(row));
+  }
   auto index = static_cast<std::size_t>(own - rows.begin());
   v.Variant({"id", names, kRequired, "which effect; see docs/effects.md", "", InPlaceOf}, index,
             [&](std::size_t chosen) {

@@ -51,8 +51,9 @@ CauseSet BestAlternative(const EvidenceLandscape& landscape, const SelectionRule
   CauseSet best = leader;
   std::size_t tried = 0;
   for (Candidate& candidate : found.candidates) {
-    const bool is_near = tried < rules.effort.alternatives &&
-                         candidate.score >= std::max(judging.decisive_nat, lead - near);
+    const bool is_near =
+        tried < rules.effort.alternatives &&
+        (!rules.screen_decides || candidate.score >= std::max(judging.decisive_nat, lead - near));
     const bool is_alike = rules.alike && candidate.score >= 0.0 &&
                           rules.alike(leader.causes.front().effect, candidate.effect);
     if (candidate.refitted || !(is_near || is_alike)) continue;
@@ -75,17 +76,14 @@ CauseSet BestAlternative(const EvidenceLandscape& landscape, const SelectionRule
 void ScreenInPlaceOfFirst(const EvidenceLandscape& landscape, CauseSelection& found) {
   const std::vector<Hypothesis> others = Without(found.causes, 0);
   found.candidates = landscape.Screen(others);
-  // The leader is the hypothesis that was chosen, at the place that was chosen.
+  // The leader is the hypothesis that was chosen, at the place that was chosen; where no straight
+  // line leads to it, the screen does not have it.
   const Hypothesis& first = found.causes[0];
-  for (Candidate& c : found.candidates) {
-    if (c.effect != first.effect) continue;
-    for (std::size_t i = 0; i < landscape.hypotheses().size(); ++i) {
-      const Hypothesis& h = landscape.hypotheses()[i];
-      if (AreSame(h, first)) c.hypothesis = i;
-    }
-    c.place = landscape.PlaceAt(found.point, first);
-    c.score = landscape.GainOf(first, others);
-  }
+  std::erase_if(found.candidates,
+                [&first](const Candidate& c) { return c.effect == first.effect; });
+  found.candidates.push_back({first.effect, landscape.PlaceAt(found.point, first),
+                              landscape.GainOf(first, others),
+                              IndexOf(landscape.hypotheses(), first), false});
   SortByScore(found.candidates);
 }
 

@@ -27,6 +27,9 @@ struct SelectionRules {
   Judging judging;
   Effort effort;
   std::size_t most_causes{3};
+  /// What the screen gives too little to be named is not fitted. False: the best of the screen are
+  /// fitted whatever it gives them, since laws bend away from it.
+  bool screen_decides{true};
   /// Effects that do much the same by their physics: each is refitted in the other's place, however
   /// far behind it seems. Empty: none.
   std::function<bool(effect::Id, effect::Id)> alike{};

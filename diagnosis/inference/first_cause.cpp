@@ -32,7 +32,7 @@ void TryOtherPlaces(const EvidenceLandscape& landscape, const SelectionRules& ru
   const Hypothesis last = found.causes.back();
   CauseSet best{found.causes, landscape.Fit(found.causes, found.point, rules.effort.passes)};
   for (const Hypothesis& other : landscape.hypotheses()) {
-    if (other.effect != last.effect || other.terms == last.terms) continue;
+    if (other.effect != last.effect || AreSame(other, last)) continue;
     std::vector<Hypothesis> causes = found.causes;
     causes.back() = other;
     best.Take(causes, landscape.Refit(causes, best.fit.evidence));
@@ -69,8 +69,10 @@ void ReconsiderFirstCause(EvidenceLandscape& landscape, const SelectionRules& ru
     AddCauses(landscape, rules, other);
     best.Take(other.causes, landscape.Fit(other.causes, other.point, rules.effort.passes));
   }
-  found.causes = best.causes;
-  found.point = best.fit.point;
+  if (best.fit.ok) {
+    found.causes = std::move(best.causes);
+    found.point = std::move(best.fit.point);
+  }
   landscape.LineariseAt(found.point);
 }
 

@@ -160,12 +160,17 @@ bool Moves(const std::vector<Hypothesis>& causes, std::size_t term) noexcept {
 }
 
 bool AreSame(const Hypothesis& a, const Hypothesis& b) noexcept {
-  return a.effect == b.effect && a.place == b.place;
+  return a.effect == b.effect && a.place == b.place && a.terms == b.terms;
 }
 
 bool IsAmong(const std::vector<Hypothesis>& causes, const Hypothesis& cause) noexcept {
-  return std::any_of(causes.begin(), causes.end(),
-                     [&cause](const Hypothesis& other) { return AreSame(other, cause); });
+  return IndexOf(causes, cause) < causes.size();
+}
+
+std::size_t IndexOf(const std::vector<Hypothesis>& all, const Hypothesis& cause) noexcept {
+  const auto same = std::find_if(
+      all.begin(), all.end(), [&cause](const Hypothesis& other) { return AreSame(other, cause); });
+  return static_cast<std::size_t>(same - all.begin());
 }
 
 std::vector<Hypothesis> MakeHypotheses(const RigView& rig, const std::vector<Term>& terms) {

@@ -35,11 +35,15 @@ struct Hypothesis {
 /// True when any of them moves it.
 [[nodiscard]] bool Moves(const std::vector<Hypothesis>& causes, std::size_t term) noexcept;
 
-/// True when both say the same of the rig: the effect and its place.
+/// True when both say the same of the rig: the effect, its place and the terms that it moves.
 [[nodiscard]] bool AreSame(const Hypothesis& a, const Hypothesis& b) noexcept;
 
 /// True when one of the causes says the same.
 [[nodiscard]] bool IsAmong(const std::vector<Hypothesis>& causes, const Hypothesis& cause) noexcept;
+
+/// Which of all hypotheses the cause is; their number where it is none of them.
+[[nodiscard]] std::size_t IndexOf(const std::vector<Hypothesis>& all,
+                                  const Hypothesis& cause) noexcept;
 
 [[nodiscard]] std::vector<Hypothesis> MakeHypotheses(const RigView& rig,
                                                      const std::vector<Term>& terms);

@@ -49,11 +49,8 @@ void Rank(std::vector<Candidate>& candidates, Candidate named) {
 /// Ranks the cause that was named last.
 void RankNamed(const RecordLandscape& landscape, double gain_nat, CauseSelection& found) {
   const Hypothesis& named = found.causes.back();
-  const auto& all = landscape.hypotheses();
-  const auto own = std::find_if(all.begin(), all.end(),
-                                [&named](const Hypothesis& h) { return AreSame(h, named); });
   Rank(found.candidates,
-       {named.effect, named.place, gain_nat, static_cast<std::size_t>(own - all.begin()), true});
+       {named.effect, named.place, gain_nat, IndexOf(landscape.hypotheses(), named), true});
 }
 
 /// True when a cause was added.

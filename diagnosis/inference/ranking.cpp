@@ -10,13 +10,20 @@
 namespace levitas::diagnosis {
 
 std::vector<Candidate> Screen(const Evidence& base, const std::vector<Hypothesis>& hypotheses) {
+  std::vector<double> gains;
+  gains.reserve(hypotheses.size());
+  for (const Hypothesis& h : hypotheses) gains.push_back(base.Gain(h));
+  return BestOfEachEffect(hypotheses, gains);
+}
+
+std::vector<Candidate> BestOfEachEffect(const std::vector<Hypothesis>& hypotheses,
+                                        const std::vector<double>& gains) {
   std::map<effect::Id, Candidate, effect::ByName> best;
   for (std::size_t i = 0; i < hypotheses.size(); ++i) {
-    const Hypothesis& h = hypotheses[i];
-    const double gain = base.Gain(h);
-    if (!std::isfinite(gain)) continue;
-    auto [at, added] = best.try_emplace(h.effect, Candidate{h.effect, h.place, gain, i, false});
-    if (!added && gain > at->second.score) at->second = {h.effect, h.place, gain, i, false};
+    if (!std::isfinite(gains[i])) continue;
+    const Candidate candidate{hypotheses[i].effect, hypotheses[i].place, gains[i], i, false};
+    const auto [at, added] = best.try_emplace(candidate.effect, candidate);
+    if (!added && candidate.score > at->second.score) at->second = candidate;
   }
   std::vector<Candidate> sorted;
   sorted.reserve(best.size());
@@ -90,6 +97,11 @@ std::vector<Hypothesis> OfExactForm(const std::vector<Hypothesis>& causes) {
     return cause.effect == effect::Id::kMainsPickup;
   });
   return exact;
+}
+
+std::vector<Hypothesis> With(std::vector<Hypothesis> causes, const Hypothesis& cause) {
+  causes.push_back(cause);
+  return causes;
 }
 
 std::vector<Hypothesis> Without(const std::vector<Hypothesis>& causes, std::size_t at) {

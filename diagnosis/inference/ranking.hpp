@@ -15,6 +15,10 @@ namespace levitas::diagnosis {
 [[nodiscard]] std::vector<Candidate> Screen(const Evidence& base,
                                             const std::vector<Hypothesis>& hypotheses);
 
+/// The same of known gains, one of every hypothesis; what is not finite is left out.
+[[nodiscard]] std::vector<Candidate> BestOfEachEffect(const std::vector<Hypothesis>& hypotheses,
+                                                      const std::vector<double>& gains);
+
 void SortByScore(std::vector<Candidate>& candidates);
 
 /// Effects that come within `tie_nat` of the first cause, or before it; and those fitted on the
@@ -36,6 +40,7 @@ void SortByScore(std::vector<Candidate>& candidates);
 /// is left beside the others may be their own law, of which form_share of their evidence speaks.
 [[nodiscard]] std::vector<Hypothesis> OfExactForm(const std::vector<Hypothesis>& causes);
 
+[[nodiscard]] std::vector<Hypothesis> With(std::vector<Hypothesis> causes, const Hypothesis& cause);
 /// All but one.
 [[nodiscard]] std::vector<Hypothesis> Without(const std::vector<Hypothesis>& causes,
                                               std::size_t at);

@@ -17,6 +17,7 @@ void DropRefuted(EvidenceLandscape& landscape, const SelectionRules& rules,
     }
     if (!whole.ok || !rest.fit.ok || gain(whole, rest.fit).value >= 0.0) return;
     found.causes = std::move(rest.causes);
+    found.refitted.clear();  // what they gain beyond a set that is no longer believed
     found.point = std::move(rest.fit.point);
     landscape.LineariseAt(found.point);
   }

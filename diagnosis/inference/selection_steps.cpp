@@ -50,7 +50,7 @@ CauseSet BestOfScreen(const EvidenceLandscape& landscape, const SelectionRules& 
   CauseSet best;
   found.refitted.clear();
   for (std::size_t i = 0; i < std::min(screened.size(), rules.effort.shortlist); ++i) {
-    if (i > 0 && screened[i].score < std::max(from, bar.enough)) break;
+    if (i > 0 && rules.screen_decides && screened[i].score < std::max(from, bar.enough)) break;
     if (landscape.StopAsked()) break;
     landscape.ReportProgress(share + 0.02 * static_cast<double>(i),
                              fmt::format("refitting {}", effect::At(screened[i].effect).name));
@@ -59,7 +59,10 @@ CauseSet BestOfScreen(const EvidenceLandscape& landscape, const SelectionRules& 
     Refined fit = landscape.Refit(causes, best.fit.ok ? best.fit.evidence : bar.null + bar.enough);
     Candidate& tried = found.refitted.emplace_back(screened[i]);
     tried.refitted = true;
-    if (fit.ok) tried.score = std::min(tried.score, fit.evidence - bar.null);
+    if (fit.ok) {
+      const double gain = fit.evidence - bar.null;
+      tried.score = rules.screen_decides ? std::min(tried.score, gain) : gain;
+    }
     best.Take(causes, std::move(fit));
   }
   return best;
@@ -100,13 +103,7 @@ void TakeUnconfirmed(const EvidenceLandscape& landscape, const SelectionRules& r
 std::set<std::size_t> Indices(const EvidenceLandscape& landscape,
                               const std::vector<Hypothesis>& causes) {
   std::set<std::size_t> indices;
-  const auto& all = landscape.hypotheses();
-  for (const Hypothesis& cause : causes) {
-    const auto same = std::find_if(all.begin(), all.end(), [&cause](const Hypothesis& h) {
-      return h.effect == cause.effect && h.place == cause.place && h.terms == cause.terms;
-    });
-    indices.insert(static_cast<std::size_t>(same - all.begin()));
-  }
+  for (const Hypothesis& cause : causes) indices.insert(IndexOf(landscape.hypotheses(), cause));
   return indices;
 }
 
@@ -172,12 +169,13 @@ bool AddCause(const EvidenceLandscape& landscape, const SelectionRules& rules, d
   const std::vector<ModeProbe> probes =
       rules.effort.first_cause_only ? std::vector<ModeProbe>{} : landscape.Probes();
   const double first = screened.front().score;
-  if (!(first > rules.judging.decisive_nat) && probes.empty()) return false;
+  const bool goes_on = !rules.screen_decides || !probes.empty();
+  if (!(first > rules.judging.decisive_nat) && !goes_on) return false;
   const Refined before = landscape.Fit(found.causes, found.point, 2);
   Bar bar;
   bar.null = before.ok ? before.evidence : landscape.EvidenceOf(found.causes);
   bar.enough = Enough(rules.judging, bar.null - landscape.EvidenceOf(OfExactForm(found.causes)));
-  if (!(first > bar.enough) && probes.empty()) return false;
+  if (!(first > bar.enough) && !goes_on) return false;
   CauseSet best = BestOfScreen(landscape, rules, screened, bar, share, found);
   TryProbes(landscape, rules, probes, bar.null, found, best);
   // The nonlinear model must confirm the gain of the linear screen.
@@ -212,6 +210,7 @@ void DropUnproven(const EvidenceLandscape& landscape, const SelectionRules& rule
     }
     if (least >= rules.judging.decisive_nat) return;
     found.causes = Without(found.causes, weakest);
+    found.refitted.clear();  // what they gain beyond a set that is no longer believed
     found.point = found.causes.empty() ? found.WithoutCauses() : landscape.SolutionOf(found.causes);
   }
 }

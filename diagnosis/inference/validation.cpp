@@ -175,14 +175,14 @@ std::optional<std::size_t> Choose(const std::vector<FitGain>& over_leader, doubl
   return best;
 }
 
-void DoubtBy(const FitGain& worth, const Judging& judging, CauseSelection& found) {
+void DoubtBy(const FitGain& worth, const FittedEvidence& fitted, const Judging& judging,
+             CauseSelection& found) {
   if (found.causes.empty()) return;
   found.doubt = DoubtOf(worth.value, worth.deviation, judging.gain_deviations);
   if (found.doubt == Doubt::kValidationHarm) {
     found.probability = ChanceOfGain(worth.value, worth.deviation);
   } else if (found.doubt == Doubt::kUnconfirmed) {
-    const double fitted_nat = found.candidates.empty() ? 0.0 : found.candidates.front().score;
-    found.probability = ChanceOfOpen(fitted_nat, 0.5 * worth.value, found.candidates.size());
+    found.probability = ChanceOfOpen(fitted.nat, 0.5 * worth.value, fitted.effects);
   }
 }
 
@@ -210,7 +210,10 @@ void JudgeOnValidation(RecordLandscape& landscape, const std::vector<Record>& va
     worth = judge.Gain(WithoutCauses(landscape, found, judge),
                        With(landscape, judge, found.causes, found.point));
   }
-  DoubtBy(worth, judging, found);
+  DoubtBy(
+      worth,
+      {found.candidates.empty() ? 0.0 : found.candidates.front().score, found.candidates.size()},
+      judging, found);
   if (found.doubt == Doubt::kUnconfirmed) {
     // A wrong calibration may adapt as far as it must; what was foretold without that counts, too.
     const FitGain plain =

@@ -37,9 +37,16 @@ namespace levitas::diagnosis {
 [[nodiscard]] std::optional<std::size_t> Choose(const std::vector<FitGain>& over_leader,
                                                 double deviations);
 
+/// What the fitted records say for causes, and among how many effects they were looked for.
+struct FittedEvidence {
+  double nat{};
+  std::size_t effects{};
+};
+
 /// Says in `found.doubt`, with the probability, whether `worth`, the gain of the causes on
 /// validation data, refutes them or leaves them open. Nothing without causes.
-void DoubtBy(const FitGain& worth, const Judging& judging, CauseSelection& found);
+void DoubtBy(const FitGain& worth, const FittedEvidence& fitted, const Judging& judging,
+             CauseSelection& found);
 
 /// Exchanges the leader for a contender that foretells the user's `validation` data better, and
 /// says in `found.doubt` when the causes are refuted there. Nothing without such data.

@@ -52,7 +52,7 @@ std::vector<effect::Id> TiesOf(const Found& found, std::size_t k) {
   std::vector<Candidate> fitted = found.in_place[k];
   const Hypothesis& cause = found.causes[k];
   std::erase_if(fitted, [&](const Candidate& c) {
-    return c.effect != cause.effect && (!c.refitted || Contains(Causes()[c.hypothesis], cause));
+    return c.effect != cause.effect && (!c.refitted || Contains(AllCauses()[c.hypothesis], cause));
   });
   // No set adapts to the validation data here: what foretells them a little worse is not refuted.
   for (Candidate& c : fitted) c.validation_nat.reset();
@@ -121,7 +121,7 @@ std::string PlaceOf(const Found& found, const diagnosis::DiagnosisReport& report
 
 }  // namespace
 
-void AddCauses(const Found& found, diagnosis::DiagnosisReport& report) {
+void ReportCauses(const Found& found, diagnosis::DiagnosisReport& report) {
   for (std::size_t k = 0; k < found.causes.size(); ++k) {
     const Hypothesis& cause = found.causes[k];
     report.causes.push_back({NameOf(cause.effect), cause.place});
@@ -142,7 +142,7 @@ diagnosis::DiagnosisReport BuildReport(const configuration::RigFile& rig, const 
   report.rig_name = rig.numbers.name;
   report.own_words = OwnWords();
   report.rig_channels = rig.numbers.channels;
-  AddCauses(result.found, report);
+  ReportCauses(result.found, report);
   AddResidual(nominal, data, result.found, report);
   const std::string& channel = rig.numbers.channels.front();
   report.place = PlaceOf(result.found, report);

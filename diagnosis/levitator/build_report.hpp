@@ -17,6 +17,6 @@ namespace levitas::levitator {
                                                      const LevitatorResult& result);
 
 /// Causes, candidates, ties and place alone.
-void AddCauses(const Found& found, diagnosis::DiagnosisReport& report);
+void ReportCauses(const Found& found, diagnosis::DiagnosisReport& report);
 
 }  // namespace levitas::levitator

@@ -10,7 +10,7 @@ namespace {
 using diagnosis::Hypothesis;
 using effect::Id;
 
-void AddCause(const char* where, std::vector<std::size_t> moves, std::vector<Hypothesis>& causes) {
+void Put(const char* where, std::vector<std::size_t> moves, std::vector<Hypothesis>& causes) {
   Hypothesis& cause = causes.emplace_back();
   cause.effect = Table()[moves.front()].effect;
   cause.place = where;
@@ -19,47 +19,47 @@ void AddCause(const char* where, std::vector<std::size_t> moves, std::vector<Hyp
 
 /// Of the loop, the coils, what their current does, and their probes.
 void AddCoilCauses(std::vector<Hypothesis>& causes) {
-  AddCause("whole rig", {kDelay}, causes);
-  AddCause("both coils", {kSupply}, causes);
-  AddCause("both coils", {kResistance}, causes);
-  AddCause("both coils", {kInductance}, causes);
-  AddCause("lower coil", {kAwayInductance}, causes);
-  AddCause("both coils", {kProfile}, causes);
-  AddCause("both coils, another size at no gap", {kProfile, kInductance}, causes);
-  AddCause("inductance", {kIronInductance}, causes);
-  AddCause("force", {kForceKnee}, causes);
-  AddCause("force and inductance", {kForceKnee, kIronInductance}, causes);
-  AddCause("both coils", {kDeadBand}, causes);
-  AddCause("upper coil", {kCommandUpper}, causes);
-  AddCause("lower coil", {kCommandLower}, causes);
-  AddCause("both coils", {kDriveCurve}, causes);
-  AddCause("both coils", {kHeating}, causes);
-  AddCause("both coils", {kMotionEmf}, causes);
-  AddCause("winding", {kEddyShare}, causes);
-  AddCause("force", {kForceLag}, causes);
-  AddCause("winding and force", {kEddyShare, kForceLag}, causes);
-  AddCause("both coils", {kMutual}, causes);
-  AddCause("lower coil", {kAwaySupply}, causes);
-  AddCause("both probes", {kProbeGain}, causes);
-  AddCause("both probes", {kProbeOffset}, causes);
-  AddCause("both probes", {kProbeLag}, causes);
+  Put("whole rig", {kDelay}, causes);
+  Put("both coils", {kSupply}, causes);
+  Put("both coils", {kResistance}, causes);
+  Put("both coils", {kInductance}, causes);
+  Put("lower coil", {kAwayInductance}, causes);
+  Put("both coils", {kProfile}, causes);
+  Put("both coils, another size at no gap", {kProfile, kInductance}, causes);
+  Put("inductance", {kIronInductance}, causes);
+  Put("force", {kForceKnee}, causes);
+  Put("force and inductance", {kForceKnee, kIronInductance}, causes);
+  Put("both coils", {kDeadBand}, causes);
+  Put("upper coil", {kCommandUpper}, causes);
+  Put("lower coil", {kCommandLower}, causes);
+  Put("both coils", {kDriveCurve}, causes);
+  Put("both coils", {kHeating}, causes);
+  Put("both coils", {kMotionEmf}, causes);
+  Put("winding", {kEddyShare}, causes);
+  Put("force", {kForceLag}, causes);
+  Put("winding and force", {kEddyShare, kForceLag}, causes);
+  Put("both coils", {kMutual}, causes);
+  Put("lower coil", {kAwaySupply}, causes);
+  Put("both probes", {kProbeGain}, causes);
+  Put("both probes", {kProbeOffset}, causes);
+  Put("both probes", {kProbeLag}, causes);
 }
 
 /// Of the force over current and place, the position sensor and the ball.
 void AddBallCauses(std::vector<Hypothesis>& causes) {
-  AddCause("ball_x", {kForce}, causes);
-  AddCause("ball_x", {kForceDecay}, causes);
-  AddCause("both coils", {kForceExponent}, causes);
-  AddCause("lower coil", {kForceAway}, causes);
-  AddCause("ball_x", {kSensorGain}, causes);
-  AddCause("ball_x", {kSensorOffset}, causes);
-  AddCause("ball_x", {kSensorSquare, kSensorCube}, causes);
-  AddCause("ball_x", {kSensorLag}, causes);
-  AddCause("ball", {kMass}, causes);
-  AddCause("ball_x", {kLoad}, causes);
-  AddCause("ball", {kDamping}, causes);
-  AddCause("ball", {kDryFriction}, causes);
-  AddCause("ball_x", {kSpring}, causes);
+  Put("ball_x", {kForce}, causes);
+  Put("ball_x", {kForceDecay}, causes);
+  Put("both coils", {kForceExponent}, causes);
+  Put("lower coil", {kForceAway}, causes);
+  Put("ball_x", {kSensorGain}, causes);
+  Put("ball_x", {kSensorOffset}, causes);
+  Put("ball_x", {kSensorSquare, kSensorCube}, causes);
+  Put("ball_x", {kSensorLag}, causes);
+  Put("ball", {kMass}, causes);
+  Put("ball_x", {kLoad}, causes);
+  Put("ball", {kDamping}, causes);
+  Put("ball", {kDryFriction}, causes);
+  Put("ball_x", {kSpring}, causes);
 }
 
 std::vector<Hypothesis> Make() {
@@ -103,7 +103,7 @@ bool Alike(Id one, Id other) {
          });
 }
 
-const std::vector<diagnosis::Hypothesis>& Causes() {
+const std::vector<diagnosis::Hypothesis>& AllCauses() {
   static const std::vector<Hypothesis> kCauses = Make();
   return kCauses;
 }

@@ -13,7 +13,7 @@
 namespace levitas::levitator {
 
 /// Their terms are parameters of the table; directions are left empty.
-[[nodiscard]] const std::vector<diagnosis::Hypothesis>& Causes();
+[[nodiscard]] const std::vector<diagnosis::Hypothesis>& AllCauses();
 
 /// Whether two effects do much the same to the data by their physics, so that one is always tried
 /// in the other's place: the weight is carried by force constant, mass, gap and current alike.

@@ -158,7 +158,7 @@ numerics::LevenbergMarquardtOptions Options(int most_steps) {
 
 }  // namespace
 
-Freedom FreedomOf(const CauseSet& causes, std::size_t records, const Theta& origin,
+Freedom FreedomOf(const Causes& causes, std::size_t records, const Theta& origin,
                   const Eigen::MatrixXd& known) {
   const std::size_t all = kParameters + records * kOwnParameters;
   Eigen::MatrixXd covariance = HealthyCovariance(all, known);
@@ -196,7 +196,7 @@ Freedom FreedomOf(const CauseSet& causes, std::size_t records, const Theta& orig
   return freedom;
 }
 
-Fitted Fitter::Fit(const CauseSet& causes, const Theta& start, const Filters& filters,
+Fitted Fitter::Fit(const Causes& causes, const Theta& start, const Filters& filters,
                    int steps) const {
   const Freedom freedom =
       FreedomOf(causes, misfit_.series().size(), misfit_.rig().origin, misfit_.rig().known);
@@ -231,7 +231,7 @@ Fitted Fitter::Fit(const CauseSet& causes, const Theta& start, const Filters& fi
 }
 
 Filters Fitter::Noise() const {
-  const CauseSet& everything = Causes();
+  const Causes& everything = AllCauses();
   Theta theta = Zeros(misfit_.series().size());
   // Scaled alone at first: what is not explained yet is no noise.
   const Filters filters = misfit_.Whiten(theta, 0);
@@ -241,13 +241,13 @@ Filters Fitter::Noise() const {
   return misfit_.Whiten(theta, kMemory);
 }
 
-std::vector<double> Fitter::Screen(const CauseSet& causes, const Fitted& at,
+std::vector<double> Fitter::Screen(const Causes& causes, const Fitted& at,
                                    const Filters& filters) const {
   const std::size_t records = misfit_.series().size();
   std::vector<std::size_t> everything(at.theta.size());
   for (std::size_t i = 0; i < everything.size(); ++i) everything[i] = i;
   const Sums sums = misfit_.Linearise(at.theta, filters, everything);
-  const auto evidence = [&](const CauseSet& set, bool& possible) {
+  const auto evidence = [&](const Causes& set, bool& possible) {
     const Freedom freedom = FreedomOf(set, records, misfit_.rig().origin, misfit_.rig().known);
     const std::vector<Index> pick(freedom.active.begin(), freedom.active.end());
     const Sums part{sums.jtj(pick, pick), sums.jte(pick), sums.ete, sums.values};
@@ -272,8 +272,8 @@ std::vector<double> Fitter::Screen(const CauseSet& causes, const Fitted& at,
   bool possible = true;
   const double base = evidence(causes, possible);
   std::vector<double> gain;
-  for (const diagnosis::Hypothesis& cause : Causes()) {
-    CauseSet with = causes;
+  for (const diagnosis::Hypothesis& cause : AllCauses()) {
+    Causes with = causes;
     with.push_back(cause);
     const double value = evidence(with, possible);
     gain.push_back(possible ? value - base : -std::numeric_limits<double>::infinity());

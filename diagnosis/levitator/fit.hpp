@@ -15,7 +15,7 @@
 
 namespace levitas::levitator {
 
-using CauseSet = std::vector<diagnosis::Hypothesis>;
+using Causes = std::vector<diagnosis::Hypothesis>;
 
 struct Fitted {
   Theta theta;
@@ -41,18 +41,18 @@ struct Freedom {
 };
 
 /// `known`: NominalRig::known, which takes the place of the table's tolerances.
-[[nodiscard]] Freedom FreedomOf(const CauseSet& causes, std::size_t records,
+[[nodiscard]] Freedom FreedomOf(const Causes& causes, std::size_t records,
                                 const Theta& origin = Zeros(0), const Eigen::MatrixXd& known = {});
 
 class Fitter {
  public:
   explicit Fitter(const Misfit& misfit) : misfit_(misfit) {}
 
-  [[nodiscard]] Fitted Fit(const CauseSet& causes, const Theta& start, const Filters& filters,
+  [[nodiscard]] Fitted Fit(const Causes& causes, const Theta& start, const Filters& filters,
                            int steps) const;
   /// What each cause would add to the set by one linearisation at its fit [nat]; minus infinity for
   /// what would have to be impossible.
-  [[nodiscard]] std::vector<double> Screen(const CauseSet& causes, const Fitted& at,
+  [[nodiscard]] std::vector<double> Screen(const Causes& causes, const Fitted& at,
                                            const Filters& filters) const;
 
   /// Everything free at once: what no parameter explains is taken for noise, and whitened.

@@ -2,8 +2,12 @@
 // The evidence of causes in the records of a ball between two magnets.
 //
 // Linearised the laws of coils bend too much for one linearisation to serve all sets: each is asked
-//            about its own fit, which is kept until the next LineariseAt. So GainOf and EvidenceOf
-//            are those of the nonlinear model, and Screen is linearised at the fit of `given`.
+//            about its own fit. So GainOf and EvidenceOf are those of the nonlinear model, and Screen
+//            is linearised at the fit of `given`.
+// Kept       the best fit of every set, for good. Refit begins once more after LineariseAt has gone
+//            elsewhere; what that ends with is kept if it is better.
+// Steps      a fit of `passes` up to four makes so many; of more, four, and unless that has shown
+//            it to be hopeless for its `worth`, `passes` further ones.
 // Whitened   once, with everything free (Fitter::Noise): all fits can be compared.
 // Shapes     none, and no starts elsewhere. Hypotheses are those of causes.hpp, in their order.
 // Lifetime   refers to the records of the caller.
@@ -20,6 +24,9 @@
 
 namespace levitas::levitator {
 
+/// Steps of a fit that is not given up.
+inline constexpr int kAllSteps = 8;
+
 using Progress = std::function<void(double, const std::string&)>;
 
 class LevitatorLandscape final : public diagnosis::EvidenceLandscape {
@@ -32,11 +39,12 @@ class LevitatorLandscape final : public diagnosis::EvidenceLandscape {
   /// Calibrates, which is where it stands at first. `progress` may be empty.
   LevitatorLandscape(const Misfit& data, Progress progress);
 
-  /// The best fit of the set so far; made where there is none.
+  /// The best fit of the set so far; made where there is none. A later fit of the same set replaces
+  /// what the reference shows.
   [[nodiscard]] const Fitted& FitOf(const Causes& set) const;
   [[nodiscard]] const Filters& filters() const { return filters_; }
 
-  [[nodiscard]] const Causes& hypotheses() const override { return levitator::Causes(); }
+  [[nodiscard]] const Causes& hypotheses() const override { return levitator::AllCauses(); }
   void LineariseAt(const Point& point) override;
   [[nodiscard]] double GainOf(const Hypothesis& cause, const Causes& given) const override;
   [[nodiscard]] double GainAt(const Refined& fit, const Hypothesis& cause,
@@ -64,7 +72,9 @@ class LevitatorLandscape final : public diagnosis::EvidenceLandscape {
     int linearisation{};  ///< of the last one that began where the search stood
   };
   /// Keeps the better one.
-  const Fitted& Keep(const Causes& set, Fitted fitted, bool settled) const;
+  void Keep(const Causes& set, Fitted fitted, bool settled) const;
+  /// Fits and keeps. True where the fit made all steps that it may; false where it was given up.
+  bool Settle(const Causes& set, const Point& start, int passes, double worth) const;
   [[nodiscard]] const Kept* Find(const Causes& set) const;
 
   Fitter fitter_;

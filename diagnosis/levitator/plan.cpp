@@ -18,10 +18,15 @@ struct Ways {
   bool stroke{}, shake{}, clock{};
 };
 
-struct Pair {
-  Id one{}, other{};
+/// What separates two effects.
+struct Separation {
   Ways ways;
   const char* words;
+};
+
+struct Pair {
+  Id one, other;
+  Separation by;
 };
 
 constexpr Ways kStroke{true, false, false};
@@ -63,51 +68,51 @@ constexpr const char* kDampingWords =
     "a slow sensor with the frequency";
 
 constexpr std::array kPairs{
-    Pair{Id::kInductanceProfile, Id::kCoilInductance, kStroke, kProfileWords},
-    Pair{Id::kInductanceProfile, Id::kMagneticSaturation, kBoth, kIronWords},
-    Pair{Id::kCoilInductance, Id::kMagneticSaturation, kBoth, kIronWords},
-    Pair{Id::kStaticLoad, Id::kRotorMass, kShake, kLoadWords},
-    Pair{Id::kStaticLoad, Id::kForceConstant, kShake, kLoadWords},
-    Pair{Id::kStaticLoad, Id::kCoilAsymmetry, kStroke, kGapWords},
-    Pair{Id::kStaticLoad, Id::kDriveAsymmetry, kStroke, kGapWords},
-    Pair{Id::kStaticLoad, Id::kSensorGain, kStroke, kGapWords},
-    Pair{Id::kStaticLoad, Id::kDisplacementStiffness, kStroke, kGapWords},
-    Pair{Id::kStaticLoad, Id::kCouplingStiffness, kStroke, kGapWords},
-    Pair{Id::kDisplacementStiffness, Id::kCouplingStiffness, kStroke, kGapWords},
-    Pair{Id::kDisplacementStiffness, Id::kSensorGain, kStroke, kGapWords},
-    Pair{Id::kDisplacementStiffness, Id::kSensorNonlinearity, kStroke, kGapWords},
-    Pair{Id::kCouplingStiffness, Id::kSensorGain, kStroke, kGapWords},
-    Pair{Id::kRotorMass, Id::kForceConstant, kNoRecord, kWeighWords},
-    Pair{Id::kSensorOffset, Id::kForceConstant, kNoRecord, kPlaceWords},
-    Pair{Id::kSensorOffset, Id::kRotorMass, kNoRecord, kPlaceWords},
-    Pair{Id::kCurrentSensorGain, Id::kForceConstant, kNoRecord, kAmmeterWords},
-    Pair{Id::kCurrentSensorGain, Id::kSupplyVoltage, kNoRecord, kAmmeterWords},
-    Pair{Id::kCurrentSensorGain, Id::kCoilResistance, kNoRecord, kAmmeterWords},
-    Pair{Id::kVoltageDrop, Id::kDriveNonlinearity, kStroke, kDriveWords},
-    Pair{Id::kVoltageDrop, Id::kSupplyVoltage, kStroke, kDriveWords},
-    Pair{Id::kDriveNonlinearity, Id::kSupplyVoltage, kStroke, kDriveWords},
-    Pair{Id::kSupplyVoltage, Id::kCoilResistance, kClock, kResistanceWords},
-    Pair{Id::kExtraDelay, Id::kEddyCurrent, kClock, kLagWords},
-    Pair{Id::kExtraDelay, Id::kCurrentSensorBandwidth, kClock, kLagWords},
-    Pair{Id::kExtraDelay, Id::kSensorBandwidth, kClock, kLagWords},
-    Pair{Id::kViscousDamping, Id::kDryFriction, kShake, kDampingWords},
-    Pair{Id::kViscousDamping, Id::kSensorBandwidth, kShake, kDampingWords},
-    Pair{Id::kDryFriction, Id::kSensorBandwidth, kShake, kDampingWords}};
+    Pair{Id::kInductanceProfile, Id::kCoilInductance, {kStroke, kProfileWords}},
+    Pair{Id::kInductanceProfile, Id::kMagneticSaturation, {kBoth, kIronWords}},
+    Pair{Id::kCoilInductance, Id::kMagneticSaturation, {kBoth, kIronWords}},
+    Pair{Id::kStaticLoad, Id::kRotorMass, {kShake, kLoadWords}},
+    Pair{Id::kStaticLoad, Id::kForceConstant, {kShake, kLoadWords}},
+    Pair{Id::kStaticLoad, Id::kCoilAsymmetry, {kStroke, kGapWords}},
+    Pair{Id::kStaticLoad, Id::kDriveAsymmetry, {kStroke, kGapWords}},
+    Pair{Id::kStaticLoad, Id::kSensorGain, {kStroke, kGapWords}},
+    Pair{Id::kStaticLoad, Id::kDisplacementStiffness, {kStroke, kGapWords}},
+    Pair{Id::kStaticLoad, Id::kCouplingStiffness, {kStroke, kGapWords}},
+    Pair{Id::kDisplacementStiffness, Id::kCouplingStiffness, {kStroke, kGapWords}},
+    Pair{Id::kDisplacementStiffness, Id::kSensorGain, {kStroke, kGapWords}},
+    Pair{Id::kDisplacementStiffness, Id::kSensorNonlinearity, {kStroke, kGapWords}},
+    Pair{Id::kCouplingStiffness, Id::kSensorGain, {kStroke, kGapWords}},
+    Pair{Id::kRotorMass, Id::kForceConstant, {kNoRecord, kWeighWords}},
+    Pair{Id::kSensorOffset, Id::kForceConstant, {kNoRecord, kPlaceWords}},
+    Pair{Id::kSensorOffset, Id::kRotorMass, {kNoRecord, kPlaceWords}},
+    Pair{Id::kCurrentSensorGain, Id::kForceConstant, {kNoRecord, kAmmeterWords}},
+    Pair{Id::kCurrentSensorGain, Id::kSupplyVoltage, {kNoRecord, kAmmeterWords}},
+    Pair{Id::kCurrentSensorGain, Id::kCoilResistance, {kNoRecord, kAmmeterWords}},
+    Pair{Id::kVoltageDrop, Id::kDriveNonlinearity, {kStroke, kDriveWords}},
+    Pair{Id::kVoltageDrop, Id::kSupplyVoltage, {kStroke, kDriveWords}},
+    Pair{Id::kDriveNonlinearity, Id::kSupplyVoltage, {kStroke, kDriveWords}},
+    Pair{Id::kSupplyVoltage, Id::kCoilResistance, {kClock, kResistanceWords}},
+    Pair{Id::kExtraDelay, Id::kEddyCurrent, {kClock, kLagWords}},
+    Pair{Id::kExtraDelay, Id::kCurrentSensorBandwidth, {kClock, kLagWords}},
+    Pair{Id::kExtraDelay, Id::kSensorBandwidth, {kClock, kLagWords}},
+    Pair{Id::kViscousDamping, Id::kDryFriction, {kShake, kDampingWords}},
+    Pair{Id::kViscousDamping, Id::kSensorBandwidth, {kShake, kDampingWords}},
+    Pair{Id::kDryFriction, Id::kSensorBandwidth, {kShake, kDampingWords}}};
 
 constexpr const char* kAllWords =
     "the ball led over its stroke and shaken, with a test signal on the current";
 
 bool AnyRecord(const Ways& ways) { return ways.stroke || ways.shake || ways.clock; }
 
-/// Of two effects; everything that a scenario can do when the table does not know them.
-Pair Between(const std::string& one, const std::string& other) {
+/// Of two effects; everything that a scenario can do where the table does not know them.
+Separation Between(const std::string& one, const std::string& other) {
   const auto are = [&](Id a, Id b) {
     return effect::At(a).name == one && effect::At(b).name == other;
   };
   for (const Pair& pair : kPairs) {
-    if (are(pair.one, pair.other) || are(pair.other, pair.one)) return pair;
+    if (are(pair.one, pair.other) || are(pair.other, pair.one)) return pair.by;
   }
-  return {{}, {}, {true, true, true}, kAllWords};
+  return {{true, true, true}, kAllWords};
 }
 
 bool Nameless(const diagnosis::DiagnosisReport& report) {
@@ -149,9 +154,9 @@ std::vector<std::string> Separations(const diagnosis::DiagnosisReport& report) {
     for (const auto& [who, words] : told) out.push_back(fmt::format("{}: {}", who, words));
     for (std::size_t i = 0; i < tie.others.size(); ++i) {
       for (std::size_t k = i + 1; k < tie.others.size(); ++k) {
-        const Pair pair = Between(tie.others[i], tie.others[k]);
-        if (AnyRecord(pair.ways)) continue;
-        out.push_back(fmt::format("{} from {}: {}", tie.others[i], tie.others[k], pair.words));
+        const Separation by = Between(tie.others[i], tie.others[k]);
+        if (AnyRecord(by.ways)) continue;
+        out.push_back(fmt::format("{} from {}: {}", tie.others[i], tie.others[k], by.words));
       }
     }
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "diagnosis/inference/alternatives.hpp"
 #include "diagnosis/inference/first_cause.hpp"
@@ -13,31 +14,34 @@
 namespace levitas::levitator {
 namespace {
 
-constexpr int kPasses = 8;
-
 /// The screen at one set's fit says little of how far a coil's law comes on the nonlinear model:
-/// the best few are refitted however far behind they seem, and no screen takes the place of a fit.
+/// the best few are fitted whatever it gives them, and no screen takes the place of a fit.
 diagnosis::SelectionRules RulesOf(const SearchSettings& settings) {
   constexpr double kAnyDistance = std::numeric_limits<double>::infinity();
   diagnosis::SelectionRules rules;
   rules.judging.form_share = settings.form_share;
-  rules.judging.near_nat = kAnyDistance;
   rules.judging.far_beyond = kAnyDistance;
-  rules.effort = {.shortlist = 5, .passes = kPasses, .alternatives = 4};
+  rules.effort = {.shortlist = 5, .passes = kAllSteps, .alternatives = 4};
   rules.most_causes = settings.most_causes;
+  rules.screen_decides = false;
   rules.alike = Alike;
   return rules;
+}
+
+std::size_t EffectsSearched() {
+  std::set<effect::Id> effects;
+  for (const diagnosis::Hypothesis& cause : AllCauses()) effects.insert(cause.effect);
+  return effects.size();
 }
 
 /// What every candidate gains on the validation data in the place where it stands.
 void JudgeCandidates(const LevitatorLandscape& landscape, const Misfit& validation, Found& out) {
   for (std::size_t k = 0; k < out.in_place.size(); ++k) {
-    const CauseSet rest = diagnosis::Without(out.causes, k);
+    const Causes rest = diagnosis::Without(out.causes, k);
     const Fitted& base = landscape.FitOf(rest);
     for (diagnosis::Candidate& candidate : out.in_place[k]) {
       if (!candidate.refitted) continue;
-      CauseSet set = rest;
-      set.push_back(Causes()[candidate.hypothesis]);
+      const Causes set = diagnosis::With(rest, AllCauses()[candidate.hypothesis]);
       const diagnosis::FitGain gain =
           GainOn(validation, out.filters, landscape.FitOf(set).theta, base.theta);
       candidate.validation_nat = 0.5 * gain.value;
@@ -73,7 +77,6 @@ Found Search(const Misfit& data, const Misfit* validation, const SearchSettings&
   const diagnosis::SelectionRules rules = RulesOf(settings);
   Found out;
   out.filters = landscape.filters();
-  out.calibrated = landscape.FitOf({});
   diagnosis::CauseSelection found;
   found.calibrated = found.point = landscape.SolutionOf({});
   diagnosis::AddCauses(landscape, rules, found);
@@ -87,12 +90,13 @@ Found Search(const Misfit& data, const Misfit* validation, const SearchSettings&
   }
   out.in_place = diagnosis::RankInPlaceOfEach(landscape, rules, found);
   out.causes = found.causes;
+  out.calibrated = landscape.FitOf({});  // which the search may have bettered
   out.extended = landscape.FitOf(found.causes);
-  out.evidence = out.extended.evidence - landscape.FitOf({}).evidence;
+  out.evidence = out.extended.evidence - out.calibrated.evidence;
   if (validation != nullptr) {
     JudgeCandidates(landscape, *validation, out);
     out.validation = GainOn(*validation, out.filters, out.extended.theta, out.calibrated.theta);
-    diagnosis::DoubtBy(out.validation, rules.judging, found);
+    diagnosis::DoubtBy(out.validation, {out.evidence, EffectsSearched()}, rules.judging, found);
     out.doubt = found.doubt;
     out.probability = found.probability;
   }

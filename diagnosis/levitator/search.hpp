@@ -5,9 +5,9 @@
 //            selection (selection_steps.hpp), also from other first causes (first_cause.hpp);
 //            backward check; what loses on validation data goes (refuted_causes.hpp); every effect
 //            in the place of each cause (alternatives.hpp).
-// Form       force laws of coils and magnets are known better than those of a rotor's, and records
-//            are worth 1e5 nat: the share of a cause's evidence that a law's form may leave is
-//            kForm, and kFormOfTie for what is tied.
+// Form       records are worth 1e5 nat here, and laws of coils are known better than those of a
+//            rotor's magnets: a further cause must gain kForm of what is explained, and what comes
+//            within kFormOfTie of a cause's evidence is its tie.
 // Validation gain in likelihood on records that were not fitted, where there are any.
 // Thread     blocks the caller, two threads inside.
 
@@ -21,21 +21,22 @@ namespace levitas::levitator {
 
 inline constexpr double kForm = 0.001;
 
-/// Causes within this share of a cause's evidence are a tie: force laws are not known better.
+/// No law is known better than to this share of the evidence.
 inline constexpr double kFormOfTie = 0.005;
 
 struct Found {
-  CauseSet causes;  ///< the weightiest first
+  Causes causes;  ///< the weightiest first
   Fitted calibrated;
   Fitted extended;
-  Filters filters;  ///< of the extended model
+  Filters filters;  ///< of what is left with everything free (Fitter::Noise)
   /// Of every cause: each effect at its best place instead of it, itself included; without a cause
   /// one list of what each would add.
   std::vector<std::vector<diagnosis::Candidate>> in_place;
-  double evidence{};                                   ///< [nat] of all causes together
-  diagnosis::FitGain validation;                       ///< of all causes together on such records
-  diagnosis::Doubt doubt{diagnosis::Doubt::kNothing};  ///< by them
-  double probability{};                                ///< of what is doubted
+  double evidence{};  ///< [nat] of all causes together
+  // Without validation records there is no gain on them, and nothing is doubted.
+  diagnosis::FitGain validation;  ///< of all causes together on the validation records
+  diagnosis::Doubt doubt{diagnosis::Doubt::kNothing};  ///< that the validation records leave
+  double probability{};  ///< that the causes are there all the same, where they are doubted
 };
 
 struct SearchSettings {

@@ -55,15 +55,15 @@ std::string SizeText(const DiagnosisReport& report, const Words& words) {
                        size->of_file ? size->of_file->nominal : 0.0);
   }
   const bool up_to = !IsSame(report, *size, NeutralOf(words));
+  // Where there is a word for the other side, the sign is said by the name.
+  const double said = words.opposite.empty() ? size->value : std::abs(size->value);
   std::string number;
   switch (words.form) {
     case SizeForm::kPlain:
-      number =
-          fmt::format("{:.3g}{}{}", words.opposite.empty() ? size->value : std::abs(size->value),
-                      size->unit.empty() ? "" : " ", size->unit);
+      number = fmt::format("{:.3g}{}{}", said, size->unit.empty() ? "" : " ", size->unit);
       break;
     case SizeForm::kPercent:
-      number = fmt::format("{:.2g} %", 100.0 * size->value);
+      number = fmt::format("{:.2g} %", 100.0 * said);
       break;
     case SizeForm::kOff:
       number =

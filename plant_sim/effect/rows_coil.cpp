@@ -18,7 +18,13 @@ constexpr Parameter Size(std::string_view stem, std::string_view unit, double mo
 
 constexpr std::array kSupply{Ratio(0.01, 100.0, 1.12, "over that of the rig file")};
 constexpr std::array kResistance{Ratio(0.1, 10.0, 1.12, "over that of the rig file")};
-constexpr std::array kInductance{Ratio(0.05, 20.0, 1.35, "over that of the rig file")};
+constexpr Parameter Named(std::string_view stem, Parameter parameter) {
+  parameter.stem = stem;
+  return parameter;
+}
+constexpr std::array kInductance{
+    Ratio(0.05, 20.0, 1.35, "over that of the rig file"),
+    Named("ratio_away", Ratio(0.05, 20.0, 1.35, "of the lower coil alone, beside it"))};
 constexpr std::array kProfile{
     Value("gap_dependence", "", 10.0, 0.4, "share of the fall with the gap that is missing")};
 constexpr std::array kDrop{
@@ -58,7 +64,7 @@ constexpr std::array kCoilRows{
     Row{Id::kCoilInductance, "coil_inductance", Place::kCoil, Scope::kRig, kInductance,
         "the inductance of both coils differs from nominal", "tau0 -> ratio tau0 in (19b)",
         "lag of the current scaled by ratio at every gap alike, current at last unchanged",
-        kCoilLaw, kMoving, "time_constant_ms of amplifier.voltage"},
+        kCoilLaw, kMoving, "time_constant_ms and away_time_constant_ratio of amplifier.voltage"},
     Row{Id::kInductanceProfile, "inductance_profile", Place::kCoil, Scope::kRig, kProfile,
         "the inductance falls otherwise with the gap than nominal",
         "1/d -> (1 - gap_dependence)/d in (19a)",

@@ -81,7 +81,8 @@ TEST(Effects, OfCoilsOnAVoltageAreRefusedInAPlantAsInAFile) {
   } catch (const std::invalid_argument& refused) {
     EXPECT_STREQ(refused.what(),
                  "effects[0] (coil_inductance): coils on a voltage have it by keys of their own; "
-                 "write time_constant_ms of amplifier.voltage instead, and leave it out for other "
+                 "write time_constant_ms and away_time_constant_ratio of amplifier.voltage "
+                 "instead, and leave it out for other "
                  "coils; correct the rig description");
   }
 }

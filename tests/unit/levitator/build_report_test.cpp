@@ -19,14 +19,14 @@ std::string NameOf(const diagnosis::Hypothesis& cause) {
 }
 
 diagnosis::Candidate Refitted(const diagnosis::Hypothesis& cause, double nat) {
-  const auto at = std::ranges::find_if(Causes(), [&](const diagnosis::Hypothesis& h) {
+  const auto at = std::ranges::find_if(AllCauses(), [&](const diagnosis::Hypothesis& h) {
     return h.effect == cause.effect && h.terms == cause.terms;
   });
-  return {cause.effect, cause.place, nat, static_cast<std::size_t>(at - Causes().begin()), true};
+  return {cause.effect, cause.place, nat, static_cast<std::size_t>(at - AllCauses().begin()), true};
 }
 
 /// Two seconds of a coil that is modelled exactly, but for the noise of its probe.
-diagnosis::DiagnosisReport ReportOf(const CauseSet& causes) {
+diagnosis::DiagnosisReport ReportOf(const Causes& causes) {
   const configuration::RigFile rig = test::LevitatorFile();
   const NominalRig nominal = NominalOf(rig);
   LevitatorResult result;
@@ -41,7 +41,7 @@ diagnosis::DiagnosisReport ReportOf(const CauseSet& causes) {
 }
 
 TEST(LevitatorReport, SaysThePlaceOfEveryCauseAlsoOfThoseNoRotorHas) {
-  for (const diagnosis::Hypothesis& cause : Causes()) {
+  for (const diagnosis::Hypothesis& cause : AllCauses()) {
     const diagnosis::DiagnosisReport report = ReportOf({cause});
     ASSERT_EQ(report.causes.size(), 1U);
     EXPECT_EQ(report.causes[0].effect, NameOf(cause));
@@ -51,7 +51,7 @@ TEST(LevitatorReport, SaysThePlaceOfEveryCauseAlsoOfThoseNoRotorHas) {
 }
 
 TEST(LevitatorReport, SaysEveryCauseInWordsWithWhatToCheck) {
-  for (const diagnosis::Hypothesis& cause : Causes()) {
+  for (const diagnosis::Hypothesis& cause : AllCauses()) {
     const diagnosis::DiagnosisReport report = ReportOf({cause});
     const effect::Words* words = diagnosis::FindWords(report, NameOf(cause));
     ASSERT_NE(words, nullptr) << NameOf(cause);
@@ -73,7 +73,7 @@ TEST(LevitatorReport, OfAHealthyRigHasNoCauseNoPlaceAndNothingToRecord) {
 TEST(LevitatorReport, TiesACandidateThatExplainsNearlyAsMuchInACausesPlace) {
   Found found;
   const auto of = [](effect::Id effect) {
-    return *std::ranges::find(Causes(), effect, &diagnosis::Hypothesis::effect);
+    return *std::ranges::find(AllCauses(), effect, &diagnosis::Hypothesis::effect);
   };
   found.causes = {of(effect::Id::kRotorMass)};
   found.in_place = {{Refitted(found.causes.front(), 300.0)}};
@@ -85,7 +85,7 @@ TEST(LevitatorReport, TiesACandidateThatExplainsNearlyAsMuchInACausesPlace) {
   add(effect::Id::kStaticLoad, 40.0, true);
   add(effect::Id::kSensorGain, 2.0, false);  // from the linearised model alone
   diagnosis::DiagnosisReport report;
-  AddCauses(found, report);
+  ReportCauses(found, report);
   EXPECT_EQ(report.also_possible, std::vector<std::string>{"force_constant"});
   ASSERT_EQ(report.candidates.size(), 4U);
   EXPECT_EQ(report.candidates[1].reason, "not separable from rotor_mass");
@@ -97,14 +97,14 @@ TEST(LevitatorReport, TiesACandidateThatExplainsNearlyAsMuchInACausesPlace) {
 TEST(LevitatorReport, TellsOfACandidateInThePlaceOfTheCauseThatItDoesMostFor) {
   Found found;
   const auto of = [](effect::Id effect) {
-    return *std::ranges::find(Causes(), effect, &diagnosis::Hypothesis::effect);
+    return *std::ranges::find(AllCauses(), effect, &diagnosis::Hypothesis::effect);
   };
   found.causes = {of(effect::Id::kExtraDelay), of(effect::Id::kRotorMass)};
   const auto other = [&](double nat) { return Refitted(of(effect::Id::kForceConstant), nat); };
   found.in_place = {{Refitted(found.causes[0], 900.0), other(10.0)},
                     {Refitted(found.causes[1], 300.0), other(299.0)}};
   diagnosis::DiagnosisReport report;
-  AddCauses(found, report);
+  ReportCauses(found, report);
   EXPECT_TRUE(report.also_possible.empty());
   EXPECT_EQ(report.ties[1].others, std::vector<std::string>{"force_constant"});
   ASSERT_EQ(report.candidates.size(), 3U);

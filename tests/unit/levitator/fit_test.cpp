@@ -14,15 +14,15 @@ namespace levitas::levitator {
 namespace {
 
 const diagnosis::Hypothesis& CauseOf(effect::Id effect) {
-  return *std::ranges::find(Causes(), effect, &diagnosis::Hypothesis::effect);
+  return *std::ranges::find(AllCauses(), effect, &diagnosis::Hypothesis::effect);
 }
 
 TEST(Causes, MoveParametersOfTheTableAndPayForTheirPlaces) {
-  for (const diagnosis::Hypothesis& cause : Causes()) {
+  for (const diagnosis::Hypothesis& cause : AllCauses()) {
     ASSERT_FALSE(cause.terms.empty());
     EXPECT_EQ(cause.effect, Table()[cause.terms.front()].effect);
     double prior = 0.0;
-    for (const diagnosis::Hypothesis& other : Causes()) {
+    for (const diagnosis::Hypothesis& other : AllCauses()) {
       if (other.effect == cause.effect) prior += std::exp(other.log_prior);
     }
     EXPECT_NEAR(prior, 1.0, 1e-12) << effect::At(cause.effect).name;
@@ -31,7 +31,7 @@ TEST(Causes, MoveParametersOfTheTableAndPayForTheirPlaces) {
 
 TEST(Causes, ReachEveryParameter) {
   for (std::size_t i = 0; i < kParameters; ++i) {
-    EXPECT_TRUE(std::any_of(Causes().begin(), Causes().end(),
+    EXPECT_TRUE(std::any_of(AllCauses().begin(), AllCauses().end(),
                             [&](const diagnosis::Hypothesis& cause) {
                               return std::find(cause.terms.begin(), cause.terms.end(), i) !=
                                      cause.terms.end();
@@ -126,7 +126,7 @@ TEST_F(FitOfAKnownRig, SaysMoreForTheRightSetThanForAPartOfIt) {
   const Misfit misfit(rig_, series_);
   const Fitter fitter(misfit);
   const Filters noise = misfit.Whiten(truth_, 0);
-  const CauseSet both{CauseOf(effect::Id::kInductanceProfile), CauseOf(effect::Id::kExtraDelay)};
+  const Causes both{CauseOf(effect::Id::kInductanceProfile), CauseOf(effect::Id::kExtraDelay)};
   const double whole = fitter.Fit(both, Zeros(1), noise, 12).evidence;
   const double part = fitter.Fit({both.front()}, Zeros(1), noise, 12).evidence;
   EXPECT_GT(whole, part + 50.0);
@@ -136,15 +136,15 @@ TEST_F(FitOfAKnownRig, ScreensTheMissingCauseAsTheBest) {
   const Misfit misfit(rig_, series_);
   const Fitter fitter(misfit);
   const Filters noise = misfit.Whiten(truth_, 0);
-  const CauseSet rest{CauseOf(effect::Id::kInductanceProfile)};
+  const Causes rest{CauseOf(effect::Id::kInductanceProfile)};
   const Fitted fitted = fitter.Fit(rest, Zeros(1), noise, 12);
   const std::vector<double> gain = fitter.Screen(rest, fitted, noise);
   const auto best =
       static_cast<std::size_t>(std::max_element(gain.begin(), gain.end()) - gain.begin());
   // A probe that is late reads as a delay of the command does.
-  EXPECT_TRUE(Causes()[best].effect == effect::Id::kExtraDelay ||
-              Alike(Causes()[best].effect, effect::Id::kExtraDelay))
-      << effect::At(Causes()[best].effect).name;
+  EXPECT_TRUE(AllCauses()[best].effect == effect::Id::kExtraDelay ||
+              Alike(AllCauses()[best].effect, effect::Id::kExtraDelay))
+      << effect::At(AllCauses()[best].effect).name;
 }
 
 TEST(Whitening, LeavesUnitVarianceOfWhatAModelLeaves) {

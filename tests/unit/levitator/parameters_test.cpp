@@ -56,5 +56,22 @@ TEST(ParameterTable, KeepsTheNumbersOfEachRecordApartBehindTheCommonOnes) {
   EXPECT_EQ(zeros, Theta(zeros.size(), 0.0));
 }
 
+// The tables of docs/effects.md are those of a diagnosis, name by name.
+TEST(ParameterTable, NamesWhatTheCatalogueNamesOfEffectsThatAreNoEntries) {
+  std::set<std::pair<std::string, std::string>> fitted;
+  std::set<std::pair<std::string, std::string>> listed;
+  for (const Row& row : Table()) {
+    const effect::Row& known = effect::At(row.effect);
+    if (!effect::IsEntry(known)) fitted.emplace(known.name, row.name);
+  }
+  for (const effect::Row& known : effect::Catalogue()) {
+    if (effect::IsEntry(known)) continue;
+    for (const effect::Parameter& p : known.parameters) {
+      listed.emplace(known.name, effect::FileKey(p));
+    }
+  }
+  EXPECT_EQ(fitted, listed);
+}
+
 }  // namespace
 }  // namespace levitas::levitator

@@ -120,7 +120,7 @@ TEST(ReportValues, AreTheKeysAndUnitsOfTheRigFile) {
   found.extended.deviation[kSensorOffset] = 10e-6;
   found.extended.theta[kDelay] = 1.4;
   found.extended.deviation[kDelay] = 0.1;
-  for (const diagnosis::Hypothesis& cause : Causes()) {
+  for (const diagnosis::Hypothesis& cause : AllCauses()) {
     if (cause.effect == effect::Id::kExtraDelay) found.causes = {cause};
   }
   ASSERT_EQ(found.causes.size(), 1U);
@@ -152,7 +152,7 @@ Found DelayFound() {
   found.extended.theta[kForce] = -0.03;
   found.extended.theta[kSensorOffset] = 60e-6;
   found.extended.theta[Own(0, kOwnOffset)] = 20e-6;
-  for (const diagnosis::Hypothesis& cause : Causes()) {
+  for (const diagnosis::Hypothesis& cause : AllCauses()) {
     if (cause.effect == effect::Id::kExtraDelay) found.causes = {cause};
   }
   return found;

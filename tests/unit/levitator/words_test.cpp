@@ -13,13 +13,6 @@
 namespace levitas::levitator {
 namespace {
 
-TEST(Words, AreThereForEveryEffectOfTheTable) {
-  for (const Row& row : Table()) {
-    const std::string_view name = effect::At(row.effect).name;
-    EXPECT_NE(effect::FindWords(name), nullptr) << name;
-  }
-}
-
 TEST(OwnWords, AreSaidOnceOfEffectsOfTheTableWithTheStemOfAParameterAsSize) {
   std::set<std::string_view> said;
   for (const effect::Words& words : OwnWords()) {

@@ -61,6 +61,23 @@ TEST(AddCause, FitsOnlyWhatTheScreenMayHaveMisjudged) {
   }
 }
 
+// Less than nothing on the screen, 20 nat in the fit: laws bend away from the screen.
+TEST(AddCause, FitsTheBestOfTheScreenWhateverItGivesThemWhereItDoesNotDecide) {
+  for (const bool decides : {true, false}) {
+    ToyLandscape toy({0.1});
+    const Hypothesis h = toy.Add(Id::kUnbalance, {1.0});
+    toy.fitted[{h.effect}] = 20.0;
+    SelectionRules rules = ThoroughRules();
+    rules.screen_decides = decides;
+    CauseSelection found = toy.Found({});
+    EXPECT_EQ(AddCause(toy, rules, 0.2, found), !decides);
+    EXPECT_EQ(ToyLandscape::EffectsOf(found.causes), decides ? Effects{} : Effects{h.effect});
+    if (decides) continue;
+    ASSERT_EQ(found.refitted.size(), 1U);
+    EXPECT_NEAR(found.refitted.front().score, 20.0 - toy.EvidenceOf({}), 1e-9) << "of the fit";
+  }
+}
+
 // A fit worth 20 nat is there for whoever begins near the mode.
 struct Elsewhere {
   Elsewhere() {

@@ -73,6 +73,23 @@ TEST(ReconsiderFirstCause, LeavesAFirstOneThatAStrongOneFollows) {
             (Effects{role::kImitation, role::kOneMore[0]}));
 }
 
+TEST(ReconsiderFirstCause, KeepsWhatWasFoundWhereNoFitFollows) {
+  Imitated one(1.3);
+  const auto& all = one.toy.hypotheses();
+  for (unsigned set = 1; set < 1U << all.size(); ++set) {
+    Effects effects;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if ((set >> i & 1U) != 0U) effects.insert(all[i].effect);
+    }
+    one.toy.refused.insert(effects);
+  }
+  const Point before = one.found.point;
+  ReconsiderFirstCause(one.toy, ThoroughRules(), one.found);
+  EXPECT_EQ(ToyLandscape::EffectsOf(one.found.causes),
+            (Effects{role::kImitation, role::kOneMore[0]}));
+  EXPECT_EQ(one.found.point, before);
+}
+
 TEST(ReconsiderFirstCause, LeavesACauseThatIsAlone) {
   ToyLandscape toy({10.0});
   CauseSelection found = toy.Found({toy.Add(role::kOnly, {1.0})});

@@ -79,6 +79,19 @@ TEST_F(FrequencyScanTest, GivesTheDampingBackWhereTheModeRings) {
   EXPECT_EQ(found.theta[kDamping], 0.0);
 }
 
+// As a resonance is: with much damping broad and shallow, with little narrow and deep; between two
+// places of the grid.
+TEST_F(FrequencyScanTest, FindsANarrowValleyByWhatItIsWithTheDampingThatTheModeEndedWith) {
+  start_.theta[kDamping] = 2.0;
+  const Point found = Scan([](const Point& at) {
+    const double width = 0.15 * (1.0 + 2.0 * std::abs(at.theta[kDamping]));
+    const double off = at.theta[kFirst] / kTolerance - 2.3;
+    return -60.0 * 0.15 / width / (1.0 + std::pow(off / width, 2));
+  });
+  EXPECT_NEAR(found.theta[kFirst], 2.25 * kTolerance, 1e-9);
+  EXPECT_EQ(found.theta[kDamping], 0.0);
+}
+
 TEST_F(FrequencyScanTest, KeepsADampingThatIsThere) {
   start_.theta[kDamping] = 0.9;
   const auto damped = [](const Point& at) { return 100.0 * std::abs(at.theta[kDamping] - 0.9); };

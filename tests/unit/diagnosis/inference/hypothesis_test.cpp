@@ -91,6 +91,10 @@ TEST_F(HypothesesTest, TheSameIsTheEffectAtItsPlaceWhateverItsColumns) {
   EXPECT_TRUE(IsAmong({Of(effect::Id::kCurrentGain, "de"), own}, held));
   EXPECT_FALSE(IsAmong({Of(effect::Id::kCurrentGain, "de")}, own));
   EXPECT_FALSE(IsAmong({}, own));
+  const std::size_t at = IndexOf(all_, held);
+  ASSERT_LT(at, all_.size());
+  EXPECT_EQ(all_[at].place, "nde");
+  EXPECT_EQ(all_[at].effect, effect::Id::kCurrentGain);
 }
 
 TEST_F(HypothesesTest, ASignIsAskedOfSingleAmountsOnly) {

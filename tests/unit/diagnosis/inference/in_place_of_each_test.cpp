@@ -81,5 +81,47 @@ TEST(RefitAlternatives, FitsWhatIsAlikeHoweverFarBehindTheScreenSeesIt) {
   }
 }
 
+// The same where the screen decides nothing.
+TEST(RefitAlternatives, FitsWhatIsFarBehindWhereTheScreenDoesNotDecide) {
+  for (const bool decides : {true, false}) {
+    ToyLandscape toy({10.0, 0.0});
+    const Hypothesis leader = toy.Add(role::kLeader, {1.0, 0.0});
+    toy.Add(role::kFarBehind, {0.0, 1.0});
+    SelectionRules rules = ThoroughRules();
+    rules.screen_decides = decides;
+    CauseSelection found = toy.Found({leader});
+    RankCandidates(toy, rules, found);
+    RefitAlternatives(toy, rules, found);
+    EXPECT_EQ(WasFitted(toy, {role::kFarBehind}), !decides);
+  }
+}
+
+/// What no straight line leads to is not on the screen.
+class WithoutALine : public ToyLandscape {
+ public:
+  using ToyLandscape::ToyLandscape;
+  effect::Id unseen{};
+  [[nodiscard]] std::vector<Candidate> Screen(const Causes& given) const override {
+    std::vector<Candidate> screened = ToyLandscape::Screen(given);
+    std::erase_if(screened, [this](const Candidate& c) { return c.effect == unseen; });
+    return screened;
+  }
+};
+
+TEST(RankInPlaceOfEach, HasTheCauseInItsOwnPlaceThoughTheScreenDoesNotSeeIt) {
+  WithoutALine toy({10.0, 0.0});
+  const Hypothesis leader = toy.Add(role::kLeader, {1.0, 0.0});
+  toy.Add(role::kAlternative, {std::sqrt(0.9), std::sqrt(0.1)});
+  toy.unseen = role::kLeader;
+  CauseSelection found = toy.Found({leader});
+  const auto lists = RankInPlaceOfEach(toy, ThoroughRules(), found);
+  ASSERT_EQ(lists.size(), 1U);
+  ASSERT_EQ(lists.front().size(), 2U);
+  EXPECT_EQ(lists.front().front().effect, role::kLeader);
+  EXPECT_NEAR(lists.front().front().score, 47.0, 1e-9);
+  EXPECT_EQ(lists.front().front().hypothesis, 0U);
+  EXPECT_TRUE(Of(lists.front(), role::kAlternative).refitted);
+}
+
 }  // namespace
 }  // namespace levitas::diagnosis

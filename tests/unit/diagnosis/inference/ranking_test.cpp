@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "tests/unit/diagnosis/trajectories.hpp"
 
 namespace levitas::diagnosis {
@@ -13,6 +15,19 @@ Hypothesis Named(effect::Id effect) {
   Hypothesis h;
   h.effect = effect;
   return h;
+}
+
+TEST(BestOfEachEffect, KeepsTheBestPlaceAndLeavesOutWhatIsNotFinite) {
+  const std::vector<Hypothesis> hypotheses{
+      Named(effect::Id::kUnbalance), Named(effect::Id::kShaftBow), Named(effect::Id::kUnbalance),
+      Named(effect::Id::kRotorMass)};
+  const std::vector<Candidate> best =
+      BestOfEachEffect(hypotheses, {3.0, 7.0, 9.0, -std::numeric_limits<double>::infinity()});
+  ASSERT_EQ(best.size(), 2U);
+  EXPECT_EQ(best[0].effect, effect::Id::kUnbalance);
+  EXPECT_EQ(best[0].hypothesis, 2U);
+  EXPECT_EQ(best[0].score, 9.0);
+  EXPECT_EQ(best[1].effect, effect::Id::kShaftBow);
 }
 
 /// Noise of which every sixth sample is validation data; `factor` is on those alone.

@@ -40,6 +40,19 @@ TEST(DropRefuted, DropsTheWeakestAsLongAsItLosesAndKeepsAsManyAsItMust) {
   }
 }
 
+// What they gained beside a cause that is gone is no gain of theirs alone.
+TEST(DropRefuted, ForgetsWhatWasFittedBesideADroppedCause) {
+  for (const bool lost : {false, true}) {
+    Three three;
+    three.found.refitted = {{role::kOther, "here", 1.0, 0, true}};
+    const auto gain = [lost](const Refined&, const Refined&) {
+      return FitGain{lost ? -1.0 : 1.0, 0.0};
+    };
+    DropRefuted(three.toy, ThoroughRules(), gain, 2, three.found);
+    EXPECT_EQ(three.found.refitted.empty(), lost);
+  }
+}
+
 TEST(DropRefuted, StopsAtAWeakestThatIsWorthSomethingThere) {
   Three three;
   // By what the weakest moves: once it is gone, both fits have none of it.

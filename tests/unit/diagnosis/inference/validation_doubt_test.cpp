@@ -7,6 +7,9 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/inference/validation.hpp"
+#include "tests/unit/diagnosis/toy_landscape.hpp"
+
 namespace levitas::diagnosis {
 namespace {
 
@@ -47,6 +50,41 @@ TEST(ChanceOfOpen, AddsWhatTheDataSayToWhatTheFittedRecordsSaid) {
   EXPECT_NEAR(ChanceOfOpen(20.0, 0.0, 40), 1.0 - 40.0 * std::exp(-20.0), 1e-9);
   EXPECT_NEAR(ChanceOfOpen(std::log(40.0) + 2.0, -2.0, 40), 0.5, 1e-12);
   EXPECT_LT(ChanceOfOpen(6.0, -5.0, 40), 0.1);
+}
+
+/// Of one cause, by its gain on validation data; found among four effects with 3 nat.
+CauseSelection Doubted(const FitGain& worth) {
+  ToyLandscape toy({10.0});
+  CauseSelection found = toy.Found({toy.Add(role::kOnly, {1.0})});
+  Judging judging;
+  judging.gain_deviations = kDeviations;
+  DoubtBy(worth, {3.0, 4}, judging, found);
+  return found;
+}
+
+TEST(DoubtBy, SaysNothingOfCausesThatTheDataConfirm) {
+  EXPECT_EQ(Doubted({40.0, 20.0}).doubt, Doubt::kNothing);
+  EXPECT_EQ(Doubted({40.0, 20.0}).probability, 0.0);
+}
+
+TEST(DoubtBy, GivesRefutedCausesTheChanceOfTheirGain) {
+  const CauseSelection found = Doubted({-40.0, 20.0});
+  EXPECT_EQ(found.doubt, Doubt::kValidationHarm);
+  EXPECT_NEAR(found.probability, 0.02275, 1e-5);  // two deviations
+}
+
+// Odds of e^(3 + 10 / 2) : 4.
+TEST(DoubtBy, AddsHalfTheGainToTheFittedEvidenceOfCausesThatStayOpen) {
+  const CauseSelection found = Doubted({10.0, 20.0});
+  EXPECT_EQ(found.doubt, Doubt::kUnconfirmed);
+  const double odds = std::exp(8.0) / 4.0;
+  EXPECT_NEAR(found.probability, odds / (1.0 + odds), 1e-9);
+}
+
+TEST(DoubtBy, HasNothingToDoubtWithoutACause) {
+  CauseSelection none;
+  DoubtBy({-40.0, 20.0}, {}, Judging{}, none);
+  EXPECT_EQ(none.doubt, Doubt::kNothing);
 }
 
 }  // namespace
