@@ -7,8 +7,8 @@
 //            their tolerances: an unexplained orbit or effect would drive gains and delays, which
 //            compensate one another, tens of tolerances away, into a local minimum that a fit free
 //            from the start does not leave.
-// Modes      whose damping or frequency ended off the file are looked for along a grid of frequencies
-//            (frequency_scan.hpp): one fit more from there, and the better of the two stays.
+// Modes      whose damping or frequency ended off the file are looked for along a grid of
+//            frequencies (frequency_scan.hpp): one fit more from there; the better of two stays.
 // Lost       where it ends a hundred standard deviations from the records, it begins again from
 //            those of the standing rotor alone, which do not lead a mode along its whirl; the
 //            better of the two ends stays.

@@ -2,8 +2,8 @@
 // The evidence of causes in the records of a ball between two magnets.
 //
 // Linearised the laws of coils bend too much for one linearisation to serve all sets: each is asked
-//            about its own fit. So GainOf and EvidenceOf are those of the nonlinear model, and Screen
-//            is linearised at the fit of `given`.
+//            about its own fit. So GainOf and EvidenceOf are those of the nonlinear model, and
+//            Screen is linearised at the fit of `given`.
 // Kept       the best fit of every set, for good. Refit begins once more after LineariseAt has gone
 //            elsewhere; what that ends with is kept if it is better.
 // Steps      a fit of `passes` up to four makes so many; of more, four, and unless that has shown

@@ -115,6 +115,7 @@ diagnosis::NamedParameter ParameterOf(const configuration::RigFile& rig, const T
   const double other = file_key.value(fit.theta[i] + spread);
   p.low = std::min(one, other);
   p.high = std::max(one, other);
+  if (i == kDelay) p.of_file = diagnosis::OfFile{rig.plant.delay_samples, p.value};
   return p;
 }
 

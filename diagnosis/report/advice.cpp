@@ -47,12 +47,17 @@ bool IsSame(const DiagnosisReport& report, const NamedParameter& size, double ne
   });
 }
 
+/// [samples] A delay under this key is the whole one.
+double DelayOfFile(const NamedParameter& delay) {
+  return delay.of_file ? delay.of_file->nominal : 0.0;
+}
+
 std::string SizeText(const DiagnosisReport& report, const Words& words) {
   const NamedParameter* size = SizeOf(report, words);
   if (size == nullptr) return {};
   if (size->key == kDelaySamplesKey) {
     return fmt::format(", {:.3g} samples where the file says {:.3g}", size->value,
-                       size->of_file ? size->of_file->nominal : 0.0);
+                       DelayOfFile(*size));
   }
   const bool up_to = !IsSame(report, *size, NeutralOf(words));
   // Where there is a word for the other side, the sign is said by the name.
@@ -77,7 +82,9 @@ std::string SizeText(const DiagnosisReport& report, const Words& words) {
 std::string_view NameOf(const DiagnosisReport& report, const Words& words) {
   const NamedParameter* size = SizeOf(report, words);
   if (words.opposite.empty() || size == nullptr) return words.name;
-  if (size->key == kDelaySamplesKey) return words.opposite;
+  if (size->key == kDelaySamplesKey) {
+    return size->value < DelayOfFile(*size) ? words.opposite : words.name;
+  }
   return size->value < NeutralOf(words) ? words.opposite : words.name;
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "diagnosis/levitator/causes.hpp"
 #include "diagnosis/report/advice.hpp"
@@ -25,13 +26,15 @@ diagnosis::Candidate Refitted(const diagnosis::Hypothesis& cause, double nat) {
   return {cause.effect, cause.place, nat, static_cast<std::size_t>(at - AllCauses().begin()), true};
 }
 
-/// Two seconds of a coil that is modelled exactly, but for the noise of its probe.
-diagnosis::DiagnosisReport ReportOf(const Causes& causes) {
+/// Two seconds of a coil that is modelled exactly, but for the noise of its probe; the causes are
+/// said to be `theta`.
+diagnosis::DiagnosisReport ReportOf(const Causes& causes, const Theta& theta = Zeros(1)) {
   const configuration::RigFile rig = test::LevitatorFile();
   const NominalRig nominal = NominalOf(rig);
   LevitatorResult result;
   result.found.causes = causes;
-  result.found.calibrated.theta = result.found.extended.theta = Zeros(1);
+  result.found.calibrated.theta = Zeros(1);
+  result.found.extended.theta = theta;
   result.found.calibrated.deviation = result.found.extended.deviation = Zeros(1);
   for (const diagnosis::Hypothesis& cause : causes) {
     result.found.in_place.push_back({Refitted(cause, 100.0)});
@@ -47,6 +50,32 @@ TEST(LevitatorReport, SaysThePlaceOfEveryCauseAlsoOfThoseNoRotorHas) {
     EXPECT_EQ(report.causes[0].effect, NameOf(cause));
     EXPECT_EQ(report.place, effect::Name(effect::At(cause.effect).place)) << NameOf(cause);
     EXPECT_NE(report.place, "") << NameOf(cause);
+  }
+}
+
+TEST(LevitatorReport, SaysWhetherADelayIsLongerThanTheFilesOrShorter) {
+  const Causes delay{
+      *std::ranges::find(AllCauses(), effect::Id::kExtraDelay, &diagnosis::Hypothesis::effect)};
+  Theta theta = Zeros(1);
+  theta[kDelay] = 1.5;
+  const std::string late = ReportOf(delay, theta).headline;
+  EXPECT_NE(late.find("Currents act too late"), std::string::npos) << late;
+  EXPECT_NE(late.find("1.5 samples where the file says 0"), std::string::npos) << late;
+  theta[kDelay] = -0.5;
+  const std::string early = ReportOf(delay, theta).headline;
+  EXPECT_NE(early.find("Currents act earlier than the rig file says"), std::string::npos) << early;
+}
+
+// The size is said without a sign, since the name says which way.
+TEST(LevitatorReport, SaysAPercentageByTheNameOfItsSide) {
+  const Causes profile{*std::ranges::find(AllCauses(), effect::Id::kInductanceProfile,
+                                          &diagnosis::Hypothesis::effect)};
+  Theta theta = Zeros(1);
+  for (const auto& [size, name] : {std::pair{0.4, "falls too little"}, {-0.4, "falls too much"}}) {
+    theta[kProfile] = size;
+    const std::string headline = ReportOf(profile, theta).headline;
+    EXPECT_NE(headline.find(name), std::string::npos) << headline;
+    EXPECT_NE(headline.find(", 40 % of"), std::string::npos) << headline;
   }
 }
 
