@@ -9,7 +9,7 @@
 //            pays the Occam factor of the cause.
 // None       for what no model foretells (noise, jitter, lost frames, the phase of the mains), and
 //            for geared shafts, where it is open in which turn a record begins.
-// Units      nat. Thread: blocks the caller, two threads inside.
+// Units      nat. Thread: blocks the caller, every processor inside.
 
 #include <optional>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 // A whole diagnosis from files: load, search, measure the gain on data not used for it.
 //
-// Thread   blocks the caller, two threads inside. Failure: BadInput.
+// Thread   blocks the caller, every processor inside. Failure: BadInput.
 
 #include <memory>
 #include <optional>

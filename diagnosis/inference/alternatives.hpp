@@ -1,7 +1,7 @@
 #pragma once
 // Competing hypotheses: every effect in place of the first cause (step 4 of diagnose.hpp).
 //
-// Thread  blocks the caller, two threads inside.
+// Thread  blocks the caller, every processor inside.
 
 #include <vector>
 

@@ -16,7 +16,7 @@
 //            and kDaily of themselves, since a rig changes from day to day. This separates
 //            parameters that one record cannot: current gain from sensor gain, gap from bias.
 // Failure    BadInput for healthy records that the model cannot follow.
-// Thread     blocks the caller, two threads inside.
+// Thread     blocks the caller, every processor inside.
 
 #include <vector>
 

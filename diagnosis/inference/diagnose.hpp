@@ -27,7 +27,7 @@
 //            within form_share of its evidence; `suspected` for a reason of Doubt (verdict.hpp);
 //            `unknown` when the residual power stands out of the noise and is more than a small
 //            part of the calibrated model's excess; else `none`.
-// Units      evidence in nats. Thread: blocks the caller, two threads inside.
+// Units      evidence in nats. Thread: blocks the caller, every processor inside.
 // Failure    BadInput for records that are too short.
 
 #include <Eigen/Core>

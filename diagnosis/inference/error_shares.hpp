@@ -13,7 +13,7 @@
 // Groups     every cause; the calibrated numbers of each effect together; those of no effect (mode
 //            shapes) together.
 // Cost       two runs of the model per group, at most kShareRows rows each.
-// Thread     ProjectedChange: any, pure. ErrorShares blocks the caller, two threads inside.
+// Thread     ProjectedChange: any, pure. ErrorShares blocks the caller, every processor inside.
 // Failure    none; a model that diverges without a group leaves that group out.
 
 #include <optional>

@@ -14,7 +14,7 @@
 // Comparable  are fits between two calls of LineariseAt, which whitens anew.
 // Refined     has a point, its evidence, and whether there is one. The rest is of RecordLandscape.
 // Units       evidence and gains in nats; theta in the terms' own units. Thread: blocks the caller,
-//             two threads inside. Failure: a Refined that is not `ok`.
+//             every processor inside. Failure: a Refined that is not `ok`.
 
 #include <string>
 #include <vector>

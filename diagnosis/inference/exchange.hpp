@@ -6,7 +6,7 @@
 //            is a little off, and a slow sensor then fits better than the delay.
 // Method     the shape parameters of all causes are refined together. Then each cause in turn is
 //            replaced by the nearest alternatives, all shapes refined again; the best set stays.
-// Thread     blocks the caller, two threads inside.
+// Thread     blocks the caller, every processor inside.
 
 #include "diagnosis/inference/cause_selection.hpp"
 #include "diagnosis/inference/evidence_landscape.hpp"

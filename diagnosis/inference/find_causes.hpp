@@ -2,7 +2,7 @@
 // Forward selection of causes (2 and 3 of diagnose.hpp), under observers as slow as the model with
 // the causes found so far allows.
 //
-// Thread  blocks the caller, two threads inside.
+// Thread  blocks the caller, every processor inside.
 
 #include "diagnosis/inference/cause_selection.hpp"
 #include "diagnosis/inference/observed_landscape.hpp"

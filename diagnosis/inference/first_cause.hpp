@@ -7,7 +7,7 @@
 // Method     where all others gain less than a tenth of the first one's evidence, the nearest
 //            effects begin a selection each in its place; the best evidence stays.
 // Landscape  one that whitens once for all: evidence is compared across LineariseAt.
-// Thread     blocks the caller, two threads inside.
+// Thread     blocks the caller, every processor inside.
 
 #include "diagnosis/inference/cause_selection.hpp"
 #include "diagnosis/inference/evidence_landscape.hpp"

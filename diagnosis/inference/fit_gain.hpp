@@ -9,7 +9,7 @@
 //           differences of the blocks, plus what the causes let calibrated numbers come back in
 //           squared tolerances: a fault that calibration had absorbed fits no better when it is
 //           named, but the rig is near its file again.
-// Thread    GainedFit: any; pure. DropUngained blocks the caller, two threads inside.
+// Thread    GainedFit: any; pure. DropUngained blocks the caller, every processor inside.
 
 #include <vector>
 

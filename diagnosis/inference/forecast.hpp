@@ -11,7 +11,7 @@
 // Bands      equal parts of the speeds of the validation records, or one where the speed hardly
 //            changes; those of less than half a block of samples are left out.
 // Cost       one run of the model per draw, at most kForecastRows rows each.
-// Units      SI. Thread: blocks the caller, two threads inside. Failure: none.
+// Units      SI. Thread: blocks the caller, every processor inside. Failure: none.
 
 #include <vector>
 

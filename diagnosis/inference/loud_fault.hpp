@@ -12,7 +12,7 @@
 //          estimate of the noise from a wrong model can lead astray.
 //          The other answer must be better by what suspects a cause (Judging::suspected_nat).
 // Cost     where something is loud three linearisations, four fits and three runs; else one run.
-// Thread   blocks the caller, two threads inside.
+// Thread   blocks the caller, every processor inside.
 
 #include <vector>
 

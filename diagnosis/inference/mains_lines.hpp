@@ -5,7 +5,7 @@
 // Where      in the readings, and in what a fast observer of the nominal model leaves of them: a
 //            test signal hides in the readings what is a tenth of it.
 // Line       kTimes the mean power of six neighbouring lines, Hann window over the whole record.
-// Thread     blocks the caller, two threads inside.
+// Thread     blocks the caller, every processor inside.
 
 #include <vector>
 

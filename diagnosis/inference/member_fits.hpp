@@ -5,7 +5,7 @@
 // Why     which step is tried, shortened, kept or given up are decisions about numbers: behind this
 //         interface they need no rig and no record.
 // Units   evidence in nats; a step is one of the logarithm of a shape parameter.
-// Thread  blocks the caller, two threads inside. Failure: a Refined that is not `ok`.
+// Thread  blocks the caller, every processor inside. Failure: a Refined that is not `ok`.
 
 #include <functional>
 #include <vector>

@@ -14,7 +14,7 @@
 //           causes, by form_share of what they explain: a strong cause whose form is not known
 //           exactly leaves numbers of others far out. A hum's is known.
 // Not here  shapes of modes, which are no effect of the vocabulary.
-// Thread    blocks the caller, two threads inside.
+// Thread    blocks the caller, every processor inside.
 
 #include <vector>
 

@@ -6,7 +6,7 @@
 //           for, are decisions about numbers, too: a test makes the numbers
 //           (tests/unit/diagnosis/toy_observed.hpp).
 // Point     everything but the view is of the point that is given, under the present observers.
-// Units     misfits in nats. Thread: blocks the caller, two threads inside.
+// Units     misfits in nats. Thread: blocks the caller, every processor inside.
 
 #include <memory>
 #include <vector>

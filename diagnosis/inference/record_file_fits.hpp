@@ -7,7 +7,7 @@
 // Coarse    few rows say where to begin; more rows say how well it ends.
 // Lifetime  refers to the search, terms and rig of the landscape that made them; its records are
 //           copied.
-// Thread    blocks the caller, two threads inside.
+// Thread    blocks the caller, every processor inside.
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 // The evidence of causes in recorded data: rig, terms, records, observers, the linearisation.
 //
 // Lifetime refers to rig, records, settings and terms of the caller.
-// Units    evidence in nats. Thread: blocks the caller, two threads inside.
+// Units    evidence in nats. Thread: blocks the caller, every processor inside.
 
 #include <memory>
 #include <string>

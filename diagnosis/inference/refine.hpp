@@ -14,7 +14,7 @@
 // Evidence   of the whole set, -1/2 (squared sum + penalty + log det), priors of places included.
 //            Only differences between sets of causes on the same records and whitening are
 //            meaningful.
-// Thread     blocks the caller, two threads inside. Failure: `ok` false when no finite run was
+// Thread     blocks the caller, every processor inside. Failure: `ok` false when no finite run was
 //            found.
 
 #include <functional>

@@ -8,7 +8,7 @@
 //            tenth of the width apart; shortened until the cost falls; until a round gains less
 //            than 10 nat.
 // Cost       three runs, a linearisation and mostly one fit for each parameter and round.
-// Thread     blocks the caller, two threads inside.
+// Thread     blocks the caller, every processor inside.
 // Failure    none: a step that does not improve the fit is not kept.
 
 #include <vector>

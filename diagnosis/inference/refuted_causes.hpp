@@ -6,7 +6,7 @@
 // Method     the weakest cause is dropped as long as all causes together foretell the validation
 //            data worse than the others without it. A strong one that loses there with a weaker one
 //            beside it stays, which would stand in its place otherwise.
-// Thread     blocks the caller, two threads inside.
+// Thread     blocks the caller, every processor inside.
 
 #include <functional>
 

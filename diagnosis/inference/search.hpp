@@ -1,7 +1,7 @@
 #pragma once
 // Linearised problems of a search for causes: runs of the model, linearisation, solution.
 //
-// Thread  blocks the caller, two threads inside.
+// Thread  blocks the caller, every processor inside.
 
 #include <functional>
 #include <memory>

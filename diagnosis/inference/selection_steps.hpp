@@ -2,7 +2,7 @@
 // Steps of the forward selection of causes with backward checks (2 and 3 of diagnose.hpp): each
 // changes `found` by what the landscape says, and nothing else.
 //
-// Thread  blocks the caller, two threads inside.
+// Thread  blocks the caller, every processor inside.
 
 #include "diagnosis/inference/cause_selection.hpp"
 #include "diagnosis/inference/evidence_landscape.hpp"

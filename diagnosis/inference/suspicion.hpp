@@ -9,7 +9,7 @@
 // Number     a calibrated number that the data determine (to half its tolerance) and that lies so
 //            many tolerances from the file that chance would bring one of all such numbers there in
 //            `chance` of healthy rigs only (normal tolerances, Bonferroni).
-// Thread     the first three: any; pure. SuspectCause blocks the caller, two threads inside.
+// Thread     the first three: any; pure. SuspectCause blocks the caller, every processor inside.
 
 #include <optional>
 #include <vector>

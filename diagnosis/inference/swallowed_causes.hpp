@@ -21,7 +21,7 @@
 //           share, still under the fast observer: find_causes.cpp goes back to slower ones.
 // Cost      for each cause a screen, and up to three joint fits of up to six descents; on a part of
 //           the records, and once on all of them.
-// Thread    blocks the caller, two threads inside.
+// Thread    blocks the caller, every processor inside.
 
 #include <vector>
 

@@ -24,7 +24,7 @@
 //            calibration can adapt to much. Data that cannot (no test signal, for a delay) neither
 //            confirm nor refute it.
 // Without    validation data of the user contenders are ties (ranking.hpp), and nothing is doubted.
-// Thread     Choose: any; pure. The rest blocks the caller, two threads inside.
+// Thread     Choose: any; pure. The rest blocks the caller, every processor inside.
 
 #include <optional>
 #include <vector>

@@ -9,7 +9,7 @@
 //         2.7 um, with a current gain of 1.56 beside it that no magnet had.
 // Who     a search that ends with its first cause. One that goes on linearises, and whitens, anew
 //         for every further cause.
-// Thread  blocks the caller, two threads inside.
+// Thread  blocks the caller, every processor inside.
 
 #include "diagnosis/inference/cause_selection.hpp"
 #include "diagnosis/inference/observed_landscape.hpp"

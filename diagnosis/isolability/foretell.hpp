@@ -1,7 +1,7 @@
 #pragma once
 // The whole table: every effect of the vocabulary at its stated size, against all others.
 //
-// Thread  blocks the caller, two threads inside. Failure: as HealthyModel.
+// Thread  blocks the caller, every processor inside. Failure: as HealthyModel.
 
 #include <functional>
 #include <string>

@@ -18,7 +18,7 @@
 // Single samples  noise and lost frames have no signature: `EventEvidence` (as events.hpp counts).
 // Limits     the loop is not run again: what a fault does to the commands by feedback is left out.
 //            One axis and more, no geared shafts.
-// Units      nat. Thread: blocks the caller, two threads inside.
+// Units      nat. Thread: blocks the caller, every processor inside.
 // Failure    BadInput for geared shafts, and for records that cannot be calibrated.
 
 #include <memory>

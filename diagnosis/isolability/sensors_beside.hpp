@@ -9,7 +9,7 @@
 // Noise     of displacement twice the square of a probe's: what the model makes of the others'
 //           readings is about as uncertain.
 // Rows      at most kRows spread over the records, every fourth of them, weighed up to all.
-// Thread    blocks the caller, two threads inside.
+// Thread    blocks the caller, every processor inside.
 
 #include <array>
 #include <string>

@@ -8,7 +8,7 @@
 // None     is an answer: no experiment of these does.
 // Failed   an experiment that the simulated rig does not bear, or a scenario that its controller
 //          refuses, is named with its reason and splits nothing.
-// Thread   blocks the caller, two threads inside.
+// Thread   blocks the caller, every processor inside.
 
 #include <string>
 #include <vector>

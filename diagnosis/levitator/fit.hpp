@@ -6,7 +6,7 @@
 // Evidence   Laplace's approximation, -1/2 (squared sum + penalty + log det): differences between
 //            sets on the same whitening mean something, one number alone does not. As in
 //            diagnosis/inference/evidence.hpp, where a prior of its own is added for every place.
-// Units      nat. Thread: blocks the caller, two threads inside.
+// Units      nat. Thread: blocks the caller, every processor inside.
 
 #include <vector>
 

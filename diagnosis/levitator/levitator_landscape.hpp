@@ -11,7 +11,7 @@
 // Whitened   once, with everything free (Fitter::Noise): all fits can be compared.
 // Shapes     none, and no starts elsewhere. Hypotheses are those of causes.hpp, in their order.
 // Lifetime   refers to the records of the caller.
-// Units      nat. Thread: blocks the caller, two threads inside. Failure: BadInput for records that
+// Units      nat. Thread: blocks the caller, every processor inside. Failure: BadInput for records that
 //            the rig file's own numbers cannot be driven with.
 
 #include <functional>

@@ -9,7 +9,7 @@
 // Healthy    records of the same rig in good condition. Errors of the file that they show are no
 //            cause; the search starts from the model that explains them (origin.hpp).
 // Report     the same plain data as for a rotor (build_report.hpp).
-// Thread     blocks the caller, two threads inside. Failure: BadInput.
+// Thread     blocks the caller, every processor inside. Failure: BadInput.
 
 #include <string>
 #include <vector>

@@ -9,7 +9,7 @@
 //            rotor's magnets: a further cause must gain kForm of what is explained, and what comes
 //            within kFormOfTie of a cause's evidence is its tie.
 // Validation gain in likelihood on records that were not fitted, where there are any.
-// Thread     blocks the caller, two threads inside.
+// Thread     blocks the caller, every processor inside.
 
 #include <vector>
 

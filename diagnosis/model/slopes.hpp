@@ -8,7 +8,7 @@
 // Precision  derivatives single, sums double: sums of single precision lose more than a unit of
 //            evidence where terms explain 1e8 of them, and are then no longer positive definite.
 // Memory     4 bytes x rows x axes x terms: 160 MB for 53 000 rows of four axes and 185 terms.
-// Thread     blocks the caller, two threads inside; results do not depend on their timing.
+// Thread     blocks the caller, every processor inside; results do not depend on their timing.
 
 #include <Eigen/Core>
 #include <vector>
