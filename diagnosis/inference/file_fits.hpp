@@ -6,8 +6,8 @@
 //         (swallowed_causes.hpp); behind this interface the decisions need no rig and no record.
 // Costs   compare with each other, whatever was held or filtered: same rows, same observer, each
 //         with a filter of its own.
-// Units   nats. Thread: blocks the caller, every processor inside. Failure: a cost of infinity, and a
-//         Refined that is not `ok`.
+// Units   nats. Thread: blocks the caller, every processor inside. Failure: a cost of infinity,
+//         and a Refined that is not `ok`.
 
 #include <limits>
 #include <vector>

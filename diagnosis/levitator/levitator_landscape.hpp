@@ -11,8 +11,8 @@
 // Whitened   once, with everything free (Fitter::Noise): all fits can be compared.
 // Shapes     none, and no starts elsewhere. Hypotheses are those of causes.hpp, in their order.
 // Lifetime   refers to the records of the caller.
-// Units      nat. Thread: blocks the caller, every processor inside. Failure: BadInput for records that
-//            the rig file's own numbers cannot be driven with.
+// Units      nat. Thread: blocks the caller, every processor inside. Failure: BadInput for records
+//            that the rig file's own numbers cannot be driven with.
 
 #include <functional>
 #include <map>
