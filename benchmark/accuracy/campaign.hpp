@@ -10,8 +10,8 @@
 //            on. The test signal is the cycle's own injected current.
 // Run-up     as fast as its time asks, if need be by a drive that is faster than the file's.
 // Failure    `stable` is false if the supervisor trips or the rotor is not levitated by the
-//            recording's start, approaches its touchdown bearings, oscillates at rest, or keeps an
-//            axis at its current limit.
+//            recording's start, approaches its touchdown bearings, oscillates at rest, or has an
+//            axis at its current limit in more than a tenth of the rows.
 // Thread     any; no shared state.
 
 #include <string>

@@ -31,9 +31,9 @@ void FindInTheLoop(const RigView& rig, const Columns& columns, const ColumnUses&
   RecordErrors wiring;
   const PlantFit plant(rig, columns, kObserver);
   FindWiring(rig, columns, laws, plant, elsewhere, wiring);
-  const Eigen::VectorXd ratios = plant.Ratios(wiring.uses);
+  const Eigen::VectorXd left = plant.MeanSquares(wiring.uses);
   const bool spoilt = !out.errors.empty() || !wiring.errors.empty();
-  if (ratios.size() > 0 && !spoilt) FindRate(rig, columns, laws, ratios.array().log().sum(), out);
+  if (left.size() > 0 && !spoilt) FindRate(rig, columns, laws, left.array().log().sum(), out);
   out.wiring = wiring.uses;
   for (std::size_t a = 0; a < rig.axes; ++a) {
     // What the wiring takes a column for is a column whose unit was mended.

@@ -203,6 +203,12 @@ Eigen::MatrixXd PlantFit::Raw(const Stretch& s, const ColumnUses& uses) const {
 }
 
 Eigen::VectorXd PlantFit::Ratios(const ColumnUses& uses) const {
+  const Eigen::VectorXd squares = MeanSquares(uses);
+  if (squares.size() == 0) return {};
+  return squares.cwiseQuotient(expected_m_.cwiseAbs2());
+}
+
+Eigen::VectorXd PlantFit::MeanSquares(const ColumnUses& uses) const {
   if (counted_ < kFewestCounted) return {};
   const auto axes = static_cast<Eigen::Index>(axes_);
   Eigen::VectorXd power = Eigen::VectorXd::Zero(axes);
@@ -215,7 +221,7 @@ Eigen::VectorXd PlantFit::Ratios(const ColumnUses& uses) const {
     count -= static_cast<double>(s.basis.cols());
   }
   if (count < 100.0) return {};
-  return (power / count).cwiseQuotient(expected_m_.cwiseAbs2());
+  return power / count;
 }
 
 }  // namespace levitas::diagnosis

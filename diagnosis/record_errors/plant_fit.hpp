@@ -34,6 +34,9 @@ class PlantFit {
 
   /// Per axis; empty where too few rows count.
   [[nodiscard]] Eigen::VectorXd Ratios(const ColumnUses& uses) const;
+  /// [m^2] The same without what is expected, which for rows that are further apart is more: models
+  /// of different periods are compared by these.
+  [[nodiscard]] Eigen::VectorXd MeanSquares(const ColumnUses& uses) const;
   [[nodiscard]] std::size_t counted() const noexcept { return counted_; }
 
  private:

@@ -98,10 +98,10 @@ void FindRate(const RigView& rig, const Columns& columns, const std::vector<LawO
   double factor = 1.0;
   for (const double candidate : kFactors) {
     const PlantFit plant(rig, columns, kRateObserver, false, candidate);
-    const Eigen::VectorXd ratios = plant.Ratios({});
-    if (ratios.size() == 0) continue;
-    const double now = ratios.array().log().sum();
-    if (now >= best) continue;
+    const Eigen::VectorXd squares = plant.MeanSquares({});
+    if (squares.size() == 0) continue;
+    const double now = squares.array().log().sum();
+    if (!(now < best)) continue;
     best = now;
     factor = candidate;
   }

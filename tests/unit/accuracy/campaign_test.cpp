@@ -213,6 +213,33 @@ TEST(Campaign, IsNotStableWhenTheSupervisorTrips) {
   EXPECT_EQ(campaign.records.size(), 2U);
 }
 
+// Derivative action takes the noise of the probes to the limit, the more often the more there is.
+TEST(Campaign, IsNotStableWhereAnAxisIsAtItsLimitInMoreThanATenthOfTheRows) {
+  const plant::PlantParameters truth = plant::Reduce(CampaignBench().rig.plant);
+  CampaignPlan plan;
+  plan.bits_per_axis = kBits;
+  bool stable = true;
+  for (const double gain : {1.0, 1.15, 1.3, 1.45}) {
+    cycle::CycleConfig controller = CampaignBench().Cycle(0);
+    const double limit_a = controller.law.current_limit_a;
+    for (law::AxisLawConfig& axis : controller.law.axes) axis.kd_a_s_per_m *= gain;
+    const Campaign campaign = Record(truth, controller, plan, Unmodelled::kNothing, 0.0, 1);
+    double most = 0.0;
+    for (const diagnosis::Record& record : campaign.records) {
+      for (std::size_t a = 0; a < controller.rig.axes(); ++a) {
+        const auto at_limit = std::ranges::count_if(record.rows, [&](const auto& row) {
+          return std::abs(row.sample.command.control_current_a[a]) >= limit_a;
+        });
+        most =
+            std::max(most, static_cast<double>(at_limit) / static_cast<double>(record.rows.size()));
+      }
+    }
+    EXPECT_EQ(campaign.stable, most <= 0.1) << gain << ": " << most;
+    stable = campaign.stable;
+  }
+  EXPECT_FALSE(stable) << "no gain of these is large enough to say anything";
+}
+
 TEST(Campaign, KnowsWhetherARigIsLifted) {
   const plant::PlantParameters truth = plant::Reduce(CampaignBench().rig.plant);
   cycle::CycleConfig controller = CampaignBench().Cycle(0);
