@@ -62,10 +62,12 @@ AxisArray Disturbance::Current(double time_s, double angle_rad, double speed_rad
       current_a[axis_] = 0.03 * size_ * std::sin(kTurn * frequency_hz_ * time_s);
       break;
     case Unmodelled::kSubsynchronous: {
+      turned_rad_ += std::remainder(angle_rad - angle_rad_, kTurn);
+      angle_rad_ = angle_rad;
       if (!(speed_rad_per_s > 0.0)) break;
       const std::size_t x = axis_ - axis_ % 2;
-      current_a[x] = 0.03 * size_ * std::cos(order_ * angle_rad);
-      current_a[x + 1] = 0.03 * size_ * std::sin(order_ * angle_rad);
+      current_a[x] = 0.03 * size_ * std::cos(order_ * turned_rad_);
+      current_a[x + 1] = 0.03 * size_ * std::sin(order_ * turned_rad_);
       break;
     }
     case Unmodelled::kTurbulence: {

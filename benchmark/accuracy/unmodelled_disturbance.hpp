@@ -30,7 +30,8 @@ class Disturbance {
 
   /// What the sensors add to the true readings at this sample.
   void Read(double time_s, AxisArray& reading_m);
-  /// Unrecorded current that acts with the command of this sample.
+  /// Unrecorded current that acts with the command of this sample. To be asked at every sample: the
+  /// angle begins anew with every turn, a whirl does not.
   [[nodiscard]] AxisArray Current(double time_s, double angle_rad, double speed_rad_per_s);
   [[nodiscard]] double frequency_hz() const noexcept { return frequency_hz_; }
   [[nodiscard]] std::size_t axis() const noexcept { return axis_; }
@@ -42,6 +43,7 @@ class Disturbance {
   std::size_t axis_{}, other_{};
   double frequency_hz_{};
   double order_{};
+  double angle_rad_{}, turned_rad_{};  ///< at the last sample; turned until then, from zero
   double resonance_{}, resonance_rate_{};
   Random noise_;
 };

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <vector>
 
 #include "benchmark/accuracy/perturbed_rig.hpp"
 #include "benchmark/accuracy/rig_trials.hpp"
@@ -67,6 +68,26 @@ TEST(Disturbance, WhirlIsACircleBelowHalfTheSpeedAndStopsWithTheRotor) {
     EXPECT_LT(order, 0.48);
     EXPECT_EQ(whirl.Current(0.0, 0.9, 0.0), AxisArray{});
   }
+}
+
+// The angle of a frame lies within one turn. A whirl that began anew with it would repeat itself turn
+// by turn, as a force that is bound to the rotation does.
+TEST(Disturbance, WhirlGoesOnWhereTheAngleBeginsANewTurn) {
+  Disturbance whirl = Drawn(Unmodelled::kSubsynchronous, 1.0, 3);
+  const std::size_t x = whirl.axis() - whirl.axis() % 2;
+  std::vector<std::complex<double>> after_turns;
+  constexpr int kStepsPerTurn = 60;
+  for (int n = 0; n <= 3 * kStepsPerTurn; ++n) {
+    const double turns = static_cast<double>(n % kStepsPerTurn) / kStepsPerTurn;
+    const AxisArray a = whirl.Current(0.0, 2.0 * std::numbers::pi * turns, 100.0);
+    if (n % kStepsPerTurn == 0) after_turns.emplace_back(a[x], a[x + 1]);
+  }
+  const double a_turn = std::arg(after_turns[1] / after_turns[0]) / (2.0 * std::numbers::pi);
+  EXPECT_GE(a_turn, 0.42);
+  EXPECT_LT(a_turn, 0.48);
+  const std::complex<double> as_far = after_turns[1] / after_turns[0];
+  EXPECT_NEAR(std::abs(after_turns[2] / after_turns[1] - as_far), 0.0, 1e-9);
+  EXPECT_NEAR(std::abs(after_turns[3] / after_turns[2] - as_far), 0.0, 1e-9);
 }
 
 TEST(Disturbance, TurbulenceHasTheRmsOfItsSizeWhateverItsFrequency) {
