@@ -25,8 +25,8 @@ void FindClock(const RigView& rig, const std::vector<double>& times_s, RecordErr
 /// True where rows are left out (the factor is far from 1), which law and plant cannot be in.
 bool FindRateOfRotation(const RigView& rig, const Columns& columns, RecordErrors& out);
 
-/// `left`: the sum over the axes of the logarithm of PlantFit::MeanSquares with the columns as `out`
-/// takes them.
+/// `left`: the sum over the axes of the logarithm of PlantFit::MeanSquares with the columns as
+/// `out` takes them.
 void FindRate(const RigView& rig, const Columns& columns, const std::vector<LawOfColumn>& laws,
               double left, RecordErrors& out);
 

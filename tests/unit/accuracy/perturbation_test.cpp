@@ -70,8 +70,8 @@ TEST(Disturbance, WhirlIsACircleBelowHalfTheSpeedAndStopsWithTheRotor) {
   }
 }
 
-// The angle of a frame lies within one turn. A whirl that began anew with it would repeat itself turn
-// by turn, as a force that is bound to the rotation does.
+// The angle of a frame lies within one turn. A whirl that began anew with it would repeat itself
+// turn by turn, as a force that is bound to the rotation does.
 TEST(Disturbance, WhirlGoesOnWhereTheAngleBeginsANewTurn) {
   Disturbance whirl = Drawn(Unmodelled::kSubsynchronous, 1.0, 3);
   const std::size_t x = whirl.axis() - whirl.axis() % 2;
