@@ -13,6 +13,7 @@ constexpr double kSpacing = 0.5;       ///< tolerances
 constexpr double kWorth = 3.0;         ///< [nat] what the best of so many places has by chance
 constexpr double kDampingOff = 1.0;    ///< tolerances from which a damping asks for a scan
 constexpr double kFrequencyOff = 2.0;  ///< tolerances from which a frequency does
+constexpr double kOtherOff = 3.0;      ///< tolerances, of numbers of which no mode has any
 
 struct Best {
   Point point;
@@ -31,6 +32,19 @@ std::optional<std::size_t> DampingOf(const std::vector<Term>& terms, const Term&
 
 bool IsOff(const Term& term, double theta, double tolerances) {
   return std::abs(theta - term.healthy_mean) > tolerances * term.tolerance;
+}
+
+/// True where a number that is no mode's lies far off: something acts that the model lacks, and a
+/// mode elsewhere would imitate it.
+bool LacksACause(const std::vector<Term>& terms, const Point& point) {
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const auto effect = terms[i].effect;
+    const bool of_a_mode =
+        effect == effect::Id::kModalFrequency || effect == effect::Id::kModalDamping;
+    if (!of_a_mode && terms[i].nuisance() && IsOff(terms[i], point.theta[i], kOtherOff))
+      return true;
+  }
+  return false;
 }
 
 /// Takes the point if it costs less.
@@ -63,6 +77,7 @@ void ScanOne(const std::vector<Term>& terms, std::size_t term, std::optional<std
 
 Point AlongFrequencies(const std::vector<Term>& terms,
                        const std::function<double(const Point&)>& cost, Point start) {
+  if (LacksACause(terms, start)) return start;
   std::optional<double> own;
   for (std::size_t i = 0; i < terms.size(); ++i) {
     if (terms[i].effect != effect::Id::kModalFrequency || !terms[i].nuisance()) continue;
