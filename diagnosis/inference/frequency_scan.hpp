@@ -8,8 +8,8 @@
 // Method   for a mode whose damping or frequency ended off the file: the cost on a grid over four
 //          tolerances to both sides of the healthy rig's frequency, and next to the best of it with
 //          the healthy rig's damping.
-// Not      where a number that is no mode's lies more than three tolerances off the file. A cause is
-//          missing then, and modes elsewhere imitate it too well to leave it any evidence.
+// Not      where a number that is no mode's lies more than three tolerances off the file. A cause
+//          is missing then, and modes elsewhere imitate it too well to leave it any evidence.
 // Thread   of the caller; pure but for `cost`.
 
 #include <functional>
