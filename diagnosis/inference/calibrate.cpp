@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "common/problem.hpp"
 #include "diagnosis/inference/coloured.hpp"
@@ -68,15 +69,15 @@ bool IsLost(const RigView& rig, const Search& search, const std::vector<Record>&
 
 /// The better of the fit and of one that begins at another frequency of a mode, if there is one.
 Refined OrFromOtherFrequencies(const Search& search, const std::vector<Term>& terms,
-                               const std::vector<Record>& all, const ObserverSpeed& speed,
+                               const std::vector<Record>& few, const ObserverSpeed& speed,
                                const Refiner& refiner, int passes, Refined fit) {
   if (!fit.ok) return fit;
-  const RigView& rig = search.rig();
-  const std::vector<Record> few = Spans(all, kFastRows, rig.period_s);
-  const Gains gains = search.DesignGains(few, speed);
-  const Refiner coarse(search, terms, few, gains, rig.axes);
-  const Point start = AlongFrequencies(
-      terms, [&coarse](const Point& at) { return coarse.Misfit(at, kWhiteningOrder); }, fit.point);
+  std::optional<Gains> gains;  // of which hardly a calibration has need
+  const auto cost = [&](const Point& at) {
+    if (!gains) gains = search.DesignGains(few, speed);
+    return Refiner(search, terms, few, *gains, search.rig().axes).Misfit(at, kWhiteningOrder);
+  };
+  const Point start = AlongFrequencies(terms, cost, fit.point);
   if (start == fit.point) return fit;
   Refined again = refiner.Approach(start, kWhiteningOrder, passes);
   return IsBetter(refiner, again, fit) ? again : fit;
@@ -107,17 +108,17 @@ Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::
                            const Gains& gains, const ObserverSpeed& speed, int passes) {
   const std::vector<Term> held = HeldToFile(terms);
   const Search cautious = SearchHeldBy(held, search);
+  const std::vector<Record> few = Spans(all, kFastRows, rig.period_s);
   const std::vector<Record> part = Spans(all, kStartRows, rig.period_s);
-  const Point start = FromFar(rig, cautious, held, Spans(all, kFastRows, rig.period_s), part,
-                              cautious.DesignGains(part, speed));
+  const Point start = FromFar(rig, cautious, held, few, part, cautious.DesignGains(part, speed));
   const Refiner refiner(search, terms, records, gains, rig.axes);
-  Refined best = OrFromOtherFrequencies(search, terms, all, speed, refiner, passes,
+  Refined best = OrFromOtherFrequencies(search, terms, few, speed, refiner, passes,
                                         refiner.Approach(start, kWhiteningOrder, passes));
   const std::vector<Record> resting = AtRest(all);
   if (resting.empty() || !IsLost(rig, search, records, gains, best)) return best;
-  const std::vector<Record> few = Spans(resting, kStartRows, rig.period_s);
-  const Point other = FromFar(rig, cautious, held, Spans(resting, kFastRows, rig.period_s), few,
-                              cautious.DesignGains(few, speed));
+  const std::vector<Record> resting_part = Spans(resting, kStartRows, rig.period_s);
+  const Point other = FromFar(rig, cautious, held, Spans(resting, kFastRows, rig.period_s),
+                              resting_part, cautious.DesignGains(resting_part, speed));
   // As far as a part of all records shows: a start that is no better there is not worth all rows.
   const Gains part_gains = search.DesignGains(part, speed);
   const Refiner partly(search, terms, part, part_gains, rig.axes);

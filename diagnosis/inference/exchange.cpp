@@ -31,8 +31,7 @@ std::vector<Candidate> Near(const EvidenceLandscape& landscape, const Judging& j
   std::vector<Candidate> near = landscape.Screen(others);
   std::erase_if(near, [&](const Candidate& c) {
     return c.score < own - std::max(judging.near_nat, judging.exchange_share * own) ||
-           std::any_of(causes.begin(), causes.end(),
-                       [&c](const Hypothesis& h) { return h.effect == c.effect; });
+           HasEffect(causes, c.effect);
   });
   near.resize(std::min(near.size(), kOthers));
   return near;

@@ -167,6 +167,11 @@ bool IsAmong(const std::vector<Hypothesis>& causes, const Hypothesis& cause) noe
   return IndexOf(causes, cause) < causes.size();
 }
 
+bool HasEffect(const std::vector<Hypothesis>& causes, effect::Id effect) noexcept {
+  return std::any_of(causes.begin(), causes.end(),
+                     [effect](const Hypothesis& h) { return h.effect == effect; });
+}
+
 std::size_t IndexOf(const std::vector<Hypothesis>& all, const Hypothesis& cause) noexcept {
   const auto same = std::find_if(
       all.begin(), all.end(), [&cause](const Hypothesis& other) { return AreSame(other, cause); });

@@ -41,6 +41,9 @@ struct Hypothesis {
 /// True when one of the causes says the same.
 [[nodiscard]] bool IsAmong(const std::vector<Hypothesis>& causes, const Hypothesis& cause) noexcept;
 
+/// True when one of the causes is of the effect, at whatever place.
+[[nodiscard]] bool HasEffect(const std::vector<Hypothesis>& causes, effect::Id effect) noexcept;
+
 /// Which of all hypotheses the cause is; their number where it is none of them.
 [[nodiscard]] std::size_t IndexOf(const std::vector<Hypothesis>& all,
                                   const Hypothesis& cause) noexcept;

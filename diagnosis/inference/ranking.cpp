@@ -47,8 +47,7 @@ std::vector<effect::Id> Ties(const std::vector<Candidate>& candidates,
   });
   if (own == candidates.end() || own->score < tie_nat) return ties;
   for (const Candidate& c : candidates) {
-    const bool also = std::any_of(causes.begin(), causes.end(),
-                                  [&c](const Hypothesis& h) { return h.effect == c.effect; });
+    const bool also = HasEffect(causes, c.effect);
     const bool refuted = c.validation_nat && own->validation_nat &&
                          *c.validation_nat < *own->validation_nat - tie_nat;
     const double near = c.refitted ? std::max(tie_nat, form_share * own->score) : tie_nat;

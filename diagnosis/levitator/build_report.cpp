@@ -28,14 +28,8 @@ std::string NameOf(effect::Id id) { return std::string(effect::At(id).name); }
 /// A candidate whose parameters include all of a named cause's is that cause with one more free
 /// parameter, not a tie.
 bool Contains(const Hypothesis& cause, const Hypothesis& named) {
-  return std::all_of(named.terms.begin(), named.terms.end(), [&](std::size_t i) {
-    return std::find(cause.terms.begin(), cause.terms.end(), i) != cause.terms.end();
-  });
-}
-
-bool IsNamed(const Found& found, effect::Id effect) {
-  return std::any_of(found.causes.begin(), found.causes.end(),
-                     [&](const Hypothesis& cause) { return cause.effect == effect; });
+  return std::all_of(named.terms.begin(), named.terms.end(),
+                     [&](std::size_t i) { return diagnosis::Moves(cause, i); });
 }
 
 /// The cause itself among those in its place.
@@ -73,7 +67,7 @@ std::vector<InPlace> Others(const Found& found) {
   for (std::size_t k = 0; k < found.in_place.size(); ++k) {
     const Candidate* own = found.causes.empty() ? nullptr : OwnOf(found, k);
     for (const Candidate& c : found.in_place[k]) {
-      if (IsNamed(found, c.effect)) continue;
+      if (diagnosis::HasEffect(found.causes, c.effect)) continue;
       const InPlace here{c, k, (own == nullptr ? 0.0 : own->score) - c.score};
       const auto same = std::find_if(others.begin(), others.end(), [&](const InPlace& o) {
         return o.candidate.effect == c.effect;

@@ -80,10 +80,8 @@ std::vector<diagnosis::Candidate> LevitatorLandscape::Screen(const Causes& given
   const Fitted base = FitOf(given);
   std::vector<double> gains = fitter_.Screen(given, base, filters_);
   for (std::size_t i = 0; i < gains.size(); ++i) {
-    const bool has = std::any_of(given.begin(), given.end(), [&](const Hypothesis& g) {
-      return g.effect == hypotheses()[i].effect;
-    });
-    if (has) gains[i] = -std::numeric_limits<double>::infinity();
+    if (diagnosis::HasEffect(given, hypotheses()[i].effect))
+      gains[i] = -std::numeric_limits<double>::infinity();
   }
   return diagnosis::BestOfEachEffect(hypotheses(), gains);
 }

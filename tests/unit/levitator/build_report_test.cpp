@@ -20,10 +20,7 @@ std::string NameOf(const diagnosis::Hypothesis& cause) {
 }
 
 diagnosis::Candidate Refitted(const diagnosis::Hypothesis& cause, double nat) {
-  const auto at = std::ranges::find_if(AllCauses(), [&](const diagnosis::Hypothesis& h) {
-    return h.effect == cause.effect && h.terms == cause.terms;
-  });
-  return {cause.effect, cause.place, nat, static_cast<std::size_t>(at - AllCauses().begin()), true};
+  return {cause.effect, cause.place, nat, diagnosis::IndexOf(AllCauses(), cause), true};
 }
 
 /// Two seconds of a coil that is modelled exactly, but for the noise of its probe; the causes are
@@ -122,7 +119,8 @@ TEST(LevitatorReport, TiesACandidateThatExplainsNearlyAsMuchInACausesPlace) {
   EXPECT_EQ(report.candidates[3].reason, "explains 40 nat less than rotor_mass in its place");
 }
 
-// Of two causes each candidate is told about the one in whose place it does most.
+// Two causes are named. An effect that is not named is compared with one of them alone: the one
+// whose gain it comes nearest to when it stands in that cause's place.
 TEST(LevitatorReport, TellsOfACandidateInThePlaceOfTheCauseThatItDoesMostFor) {
   Found found;
   const auto of = [](effect::Id effect) {

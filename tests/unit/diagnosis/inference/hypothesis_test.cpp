@@ -91,6 +91,8 @@ TEST_F(HypothesesTest, TheSameIsTheEffectAtItsPlaceWhateverItsColumns) {
   EXPECT_TRUE(IsAmong({Of(effect::Id::kCurrentGain, "de"), own}, held));
   EXPECT_FALSE(IsAmong({Of(effect::Id::kCurrentGain, "de")}, own));
   EXPECT_FALSE(IsAmong({}, own));
+  EXPECT_TRUE(HasEffect({Of(effect::Id::kCurrentGain, "de")}, own.effect));
+  EXPECT_FALSE(HasEffect({Of(effect::Id::kSensorGain, "nde")}, own.effect));
   const std::size_t at = IndexOf(all_, held);
   ASSERT_LT(at, all_.size());
   EXPECT_EQ(all_[at].place, "nde");
