@@ -25,15 +25,17 @@ constexpr ObserverSpeed kObserver{0.003, 1e-5};
 constexpr Eigen::Index kFewestRows = 500;
 
 /// What law and plant tell, of columns whose positions are in metres.
-void FindInTheLoop(const RigView& rig, const Columns& columns, const ColumnUses& elsewhere,
+void FindInTheLoop(const RigView& rig, const Columns& columns, const SeenElsewhere& elsewhere,
                    RecordErrors& out) {
   const std::vector<LawOfColumn> laws = FitLaw(rig, columns);
   RecordErrors wiring;
   const PlantFit plant(rig, columns, kObserver);
-  FindWiring(rig, columns, laws, plant, elsewhere, wiring);
+  FindWiring(rig, columns, laws, plant, elsewhere.wiring, wiring);
   const Eigen::VectorXd left = plant.MeanSquares(wiring.uses);
   const bool spoilt = !out.errors.empty() || !wiring.errors.empty();
-  if (left.size() > 0 && !spoilt) FindRate(rig, columns, laws, left.array().log().sum(), out);
+  if (left.size() > 0 && !spoilt) {
+    FindRate(rig, columns, laws, left.array().log().sum(), elsewhere.rows_apart, out);
+  }
   out.wiring = wiring.uses;
   for (std::size_t a = 0; a < rig.axes; ++a) {
     // What the wiring takes a column for is a column whose unit was mended.
@@ -42,6 +44,27 @@ void FindInTheLoop(const RigView& rig, const Columns& columns, const ColumnUses&
   }
   out.uses = wiring.uses;
   out.errors.insert(out.errors.end(), wiring.errors.begin(), wiring.errors.end());
+}
+
+SeenElsewhere ShownBy(const std::vector<RecordErrors>& found) {
+  SeenElsewhere out;
+  const auto wired = std::ranges::find_if(found, [](const RecordErrors& errors) {
+    return errors.has_test_signal && !(errors.wiring == ColumnUses{});
+  });
+  if (wired != found.end()) out.wiring = wired->wiring;
+  const auto turned = std::ranges::find_if(
+      found, [](const RecordErrors& errors) { return errors.rows_apart > 0.0; });
+  if (turned != found.end()) out.rows_apart = turned->rows_apart;
+  return out;
+}
+
+/// Does the record say what others show to be something else, of which it knows less than they?
+bool IsUnsure(const RecordErrors& found, const SeenElsewhere& elsewhere) {
+  const bool wired = !(elsewhere.wiring == ColumnUses{}) && !found.has_test_signal &&
+                     !(found.wiring == elsewhere.wiring);
+  const bool says_rate = std::ranges::any_of(
+      found.errors, [](const RecordError& error) { return error.kind == RecordErrorKind::kRate; });
+  return wired || (elsewhere.rows_apart > 0.0 && found.rows_apart == 0.0 && says_rate);
 }
 
 void LeaveGaps(const std::vector<std::uint64_t>& gaps, Record& record) {
@@ -83,7 +106,7 @@ Record Mended(const RigView& rig, const Record& record, const RecordErrors& foun
 }
 
 RecordErrors FindRecordErrors(const RigView& rig, const Record& record,
-                              const ColumnUses& elsewhere) {
+                              const SeenElsewhere& elsewhere) {
   RecordErrors out;
   out.record = record.name;
   FindClock(rig, record.times_s, out);
@@ -120,15 +143,11 @@ std::vector<RecordErrors> FindErrorsOfRecords(const RigView& rig,
   std::vector<RecordErrors> found(records.size());
   EachThatMayFail(records.size(), 0,
                   [&](std::size_t i) { found[i] = FindRecordErrors(rig, records[i], {}); });
-  const ColumnUses right;
-  const auto shown = std::ranges::find_if(found, [&](const RecordErrors& errors) {
-    return errors.has_test_signal && !(errors.wiring == right);
-  });
-  if (shown == found.end()) return found;
-  const ColumnUses elsewhere = shown->wiring;
+  const SeenElsewhere elsewhere = ShownBy(found);
   for (std::size_t i = 0; i < records.size(); ++i) {
-    const bool unsure = !found[i].has_test_signal && !(found[i].wiring == elsewhere);
-    if (unsure) found[i] = FindRecordErrors(rig, records[i], elsewhere);
+    if (IsUnsure(found[i], elsewhere)) {
+      found[i] = FindRecordErrors(rig, records[i], elsewhere);
+    }
   }
   return found;
 }

@@ -20,12 +20,18 @@ namespace levitas::diagnosis {
 
 inline constexpr std::uint64_t kUnknownGap = 1000;  ///< cycles
 
-/// `elsewhere`: the wiring that other records of the rig show.
-[[nodiscard]] RecordErrors FindRecordErrors(const RigView& rig, const Record& record,
-                                            const ColumnUses& elsewhere = {});
+/// What other records of the rig and recorder show.
+struct SeenElsewhere {
+  ColumnUses wiring;
+  double rows_apart{};  ///< RecordErrors::rows_apart
+};
 
-/// Of records of one rig and recorder, one entry each: where a record without a test signal cannot
-/// tell which of two columns is wrong, the records that have one do.
+[[nodiscard]] RecordErrors FindRecordErrors(const RigView& rig, const Record& record,
+                                            const SeenElsewhere& elsewhere = {});
+
+/// Of records of one rig and recorder, one entry each. Where a record without a test signal cannot
+/// tell which of two columns is wrong, the records that have one do; how far rows are apart, one
+/// that turns contradicts those at rest.
 [[nodiscard]] std::vector<RecordErrors> FindErrorsOfRecords(const RigView& rig,
                                                             const std::vector<Record>& records);
 

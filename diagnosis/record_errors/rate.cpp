@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "diagnosis/record_errors/plant_fit.hpp"
 #include "diagnosis/record_errors/rotation_unit.hpp"
@@ -75,6 +76,7 @@ bool FindRateOfRotation(const RigView& rig, const Columns& columns, RecordErrors
   });
   if (factor <= 0.0 || known || std::abs(factor - 1.0) < kOffRotation) return false;
   const double rate_hz = 1.0 / rig.period_s;
+  out.rows_apart = factor;
   out.errors.push_back(
       {RecordErrorKind::kRate,
        {"time"},
@@ -90,13 +92,15 @@ bool FindRateOfRotation(const RigView& rig, const Columns& columns, RecordErrors
 }
 
 void FindRate(const RigView& rig, const Columns& columns, const std::vector<LawOfColumn>& laws,
-              double left, RecordErrors& out) {
+              double left, double rows_apart, RecordErrors& out) {
   const bool exact =
       std::ranges::any_of(laws, [](const LawOfColumn& law) { return law.left < 0.5 * kLawKnown; });
   if (exact) return;
+  const std::span<const double> candidates =
+      rows_apart > 0.0 ? std::span<const double>(&rows_apart, 1) : std::span(kFactors);
   double best = left;
   double factor = 1.0;
-  for (const double candidate : kFactors) {
+  for (const double candidate : candidates) {
     const PlantFit plant(rig, columns, kRateObserver, false, candidate);
     const Eigen::VectorXd squares = plant.MeanSquares({});
     if (squares.size() == 0) continue;

@@ -8,7 +8,9 @@
 //            unit makes it so: rows are so many periods apart.
 // Dynamics   the plant of the rig at whole multiples and parts of its rate (plant_fit.hpp): another
 //            rate is named where the law of the controller is not in the rows (some are missing, or
-//            made from others), and it leaves less of the plant by kRateGain.
+//            made from others), and it leaves less of the plant by kRateGain. At rest a rotor may
+//            look like one that is sampled twice as often, too: if another record's rotation
+//            shows a rate, that one alone is tried.
 // Thread     any; pure.
 
 #include <vector>
@@ -22,12 +24,13 @@ namespace levitas::diagnosis {
 
 void FindClock(const RigView& rig, const std::vector<double>& times_s, RecordErrors& out);
 
-/// True where rows are left out (the factor is far from 1), which law and plant cannot be in.
+/// True where rows are left out (the factor is far from 1), which law and plant cannot be in. Sets
+/// `rows_apart`.
 bool FindRateOfRotation(const RigView& rig, const Columns& columns, RecordErrors& out);
 
 /// `left`: the sum over the axes of the logarithm of PlantFit::MeanSquares with the columns as
-/// `out` takes them.
+/// `out` takes them. `rows_apart`: as another record of the recorder shows, 0 where none does.
 void FindRate(const RigView& rig, const Columns& columns, const std::vector<LawOfColumn>& laws,
-              double left, RecordErrors& out);
+              double left, double rows_apart, RecordErrors& out);
 
 }  // namespace levitas::diagnosis

@@ -52,6 +52,7 @@ struct RecordErrors {
   double speed_factor{1.0};  ///< of the speed column; of the angle's where there is none
   double angle_factor{1.0};
   double time_factor{1.0};          ///< of the times, steady
+  double rows_apart{};              ///< [periods of the rig] that rotation shows; 0: it shows none
   bool drifts{};                    ///< no factor mends the times
   std::vector<std::uint64_t> gaps;  ///< cycles of rows before which others are left out
 };

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "benchmark/accuracy/drawn_rig.hpp"
 #include "benchmark/accuracy/spoilt_record.hpp"
 #include "benchmark/accuracy/trial.hpp"
 #include "diagnosis/record_errors/find.hpp"
@@ -114,6 +115,33 @@ TEST(RecordsOfOneRig, TellWhatARecordWithoutTestSignalCannot) {
     ASSERT_EQ(found.errors.size(), 1U) << found.record;
     EXPECT_EQ(found.errors.front().columns, std::vector<std::string>{"position_de_x"});
   }
+}
+
+/// Of this rig at rest every second row looks like rows that are twice as dense; what turns shows
+/// that half of them is missing.
+TEST(RecordsOfOneRig, ContradictTheWrongRateOfARecordAtRest) {
+  TrialPlan plan;
+  plan.seed = 157000;
+  plan.bits_per_axis = 700;
+  plan.runup_s = 1.0;
+  const Trial trial = MakeDrawnTrial(
+      LoadTestRig("flexible_rotor", {"flexible_rotor", "flexible_rotor_commissioned"}), plan);
+  const Spoilt made = Spoil(trial.rig, trial.records, RecordErrorKind::kRate, 77 * plan.seed + 1);
+  const diagnosis::RigView view(trial.rig.numbers, trial.rig.plant);
+
+  const auto alone = diagnosis::FindRecordErrors(view, made.records.front());
+  ASSERT_EQ(alone.errors.size(), 1U);
+  EXPECT_EQ(alone.errors.front().size, 0.5);
+
+  std::size_t right = 0;
+  for (const auto& found : diagnosis::FindErrorsOfRecords(view, made.records)) {
+    for (const auto& error : found.errors) {
+      EXPECT_EQ(error.kind, RecordErrorKind::kRate) << found.record;
+      EXPECT_NEAR(error.size, 2.0, 0.01) << found.record;
+      ++right;
+    }
+  }
+  EXPECT_GE(right, 2U) << "both records that turn";
 }
 
 }  // namespace
