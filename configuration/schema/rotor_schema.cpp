@@ -28,7 +28,8 @@ void Describe(Visitor& v, rotor::Material& material) {
   v.Number({"young", kGigapascal, 0.1, 2000, kRequired, "Young's modulus of the shaft"},
            material.young_pa);
   v.Number({"poisson", kOne, 0, 0.49, kRequired, "Poisson's ratio of the shaft"}, material.poisson);
-  v.Number({"density", kDensity, 100, 30000, kRequired, "density of the shaft"},
+  v.Number({"density", kDensity, 100, 100000, kRequired,
+            "density of the shaft; more than a metal has where it stands for parts around it"},
            material.density_kg_per_m3);
 }
 
