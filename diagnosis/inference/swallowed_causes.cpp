@@ -59,18 +59,23 @@ bool AddOne(const FileFits& fits, const EvidenceLandscape& landscape, const Judg
   return true;
 }
 
+/// [nat] What is left with these causes, fitted from the point on under the observer of the
+/// landscape: a point that another observer led to pays for that until it is fitted anew.
+double FittedMisfit(ObservedLandscape& landscape, const SelectionRules& rules,
+                    const std::vector<Hypothesis>& causes, const Point& point) {
+  landscape.LineariseAt(point);
+  const Refined fit = landscape.Fit(causes, point, rules.effort.passes);
+  return fit.ok ? landscape.MisfitOf(causes, fit.point) : std::numeric_limits<double>::infinity();
+}
+
 /// The causes with all rows, under the observer of the landscape; false where their gain over no
 /// cause, and over those found so far, does not hold there.
 bool TakeOver(ObservedLandscape& landscape, const SelectionRules& rules, const JointFit& without,
               const JointFit& with, CauseSelection& found) {
-  landscape.LineariseAt(without.free.point);
-  const Refined base = landscape.Fit({}, without.free.point, rules.effort.passes);
-  if (!base.ok) return false;
-  double most = landscape.MisfitOf({}, base.point);
+  double most = FittedMisfit(landscape, rules, {}, without.free.point);
+  if (most == std::numeric_limits<double>::infinity()) return false;
   if (!found.causes.empty()) {
-    landscape.LineariseAt(found.point);
-    const Refined now = landscape.Fit(found.causes, found.point, rules.effort.passes);
-    if (now.ok) most = std::min(most, landscape.MisfitOf(found.causes, now.point));
+    most = std::min(most, FittedMisfit(landscape, rules, found.causes, found.point));
   }
   most -= rules.judging.suspected_nat;
   landscape.LineariseAt(with.free.point);
@@ -89,7 +94,8 @@ bool TakeOver(ObservedLandscape& landscape, const SelectionRules& rules, const J
 /// where it fits better under the observer of the landscape, too, than what was found so far.
 void CalibrateAnew(ObservedLandscape& landscape, const SelectionRules& rules, const JointFit& anew,
                    CauseSelection& found) {
-  const double before = landscape.MisfitOf(found.causes, found.point);
+  const double before = std::min(landscape.MisfitOf(found.causes, found.point),
+                                 FittedMisfit(landscape, rules, found.causes, found.point));
   landscape.LineariseAt(anew.free.point);
   const Refined fit = landscape.Fit({}, anew.free.point, rules.effort.passes);
   if (!fit.ok || !(landscape.MisfitOf({}, fit.point) < before)) return;

@@ -2,7 +2,8 @@
 // A landscape of evidence with observers and one calibrated number, all of which a test makes.
 //
 // Number      of tolerance 1, healthy at 0, known to a thousandth: what a test says beyond 3 is
-//             surely far (Judging::moved_tolerances). It stays where a fit begins.
+//             surely far (Judging::moved_tolerances). It stays where a fit begins, unless a test says
+//             where it ends.
 // Observers   a test says under which speed, with which causes, the model or its sensitivities
 //             diverge, no fit follows, or how much is left of the readings (elsewhere 1).
 // Filter      behind it is left what `behind_filter` says; a test may say what the readings are
@@ -102,6 +103,7 @@ class ToyObserved : public ToyEvidence<ObservedLandscape> {
   }
 
   std::map<EffectSet, double> number;  ///< [tolerances] where causes leave it; 0 without an entry
+  std::map<double, double> ends;       ///< [tolerances] the number, by where a fit begins
   std::set<Under> loses;               ///< the model loses the rotor
   std::set<Under> wild;                ///< sensitivities diverge
   std::set<Under> unfollowed;          ///< no fit follows
@@ -176,7 +178,8 @@ class ToyObserved : public ToyEvidence<ObservedLandscape> {
   [[nodiscard]] Refined Fit(const Causes& set, const Point& start, int passes,
                             double worth) const override {
     Refined fit = Base::Fit(set, start, passes, worth);
-    fit.point.theta.back() = NumberAt(start);
+    const auto end = ends.find(NumberAt(start));
+    fit.point.theta.back() = end == ends.end() ? NumberAt(start) : end->second;
     fit.problem = Known();
     if (unfollowed.contains({at_speed, EffectsOf(set)})) fit.ok = false;
     return fit;

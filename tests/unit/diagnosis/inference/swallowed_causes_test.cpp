@@ -328,6 +328,15 @@ TEST(TakeSwallowedCauses, KeepsACalibrationThatFitsBetterUnderTheObserverOfTheLa
   ExpectKeepsCalibration(toy);
 }
 
+// Another observer led to it; the present one has its least elsewhere.
+TEST(TakeSwallowedCauses, FitsACalibrationUnderThePresentObserverBeforeItIsReplaced) {
+  LostCalibration toy;
+  toy.file->anew.number = 2.0;
+  ASSERT_EQ(toy.NumberAt(Take(toy, toy.Calibrated()).found.calibrated), 2.0);
+  toy.ends[kFarNumber] = 1.0;
+  ExpectKeepsCalibration(toy);
+}
+
 // The other calibration was linearised to be weighed; what is ranked is what was found.
 TEST(TakeSwallowedCauses, GoesBackToWhatWasFoundOnceASearchIsToEnd) {
   LostCalibration toy;
