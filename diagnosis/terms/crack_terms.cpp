@@ -51,10 +51,20 @@ double Reference(const RigView& rig, const std::vector<double>& curvature) {
   return first * first;
 }
 
+/// [1/(N m^2)] R of effect/crack.hpp.
+double CurvatureCompliance(const RigView& rig, const std::vector<double>& curvature) {
+  double sum = 0.0;
+  for (std::size_t i = 2; i < curvature.size(); ++i) {
+    sum += std::pow(curvature[i] / rig.omega_rad_per_s[i], 2);
+  }
+  return sum;
+}
+
 /// `direction_rad` beyond a whole turn, so that shapes are positive.
 Term Crack(const RigView& rig, double z_m, double direction_rad) {
   const auto curvature = Curvature(rig, z_m);
   const double size = Reference(rig, curvature);
+  const double residual = CurvatureCompliance(rig, curvature);
   const double gx = rig.model->gravity_direction_x();
   const double gy = rig.model->gravity_direction_y();
   const double degrees = std::fmod(direction_rad, kTurn) * 360.0 / kTurn;
@@ -70,7 +80,7 @@ Term Crack(const RigView& rig, double z_m, double direction_rad) {
                 (ex * static_cast<double>(m.q[i]) + ey * static_cast<double>(m.q[modes + i]));
     }
     const double open = 0.5 * (1.0 + ex * gx + ey * gy);
-    const double moment = theta * size * open * across;
+    const double moment = effect::CrackSoftening(theta * size, open, residual) * across;
     for (std::size_t i = 2; i < modes; ++i) {
       add.Modal(i, curvature[i] * moment * ex);
       add.Modal(modes + i, curvature[i] * moment * ey);

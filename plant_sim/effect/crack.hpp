@@ -6,6 +6,12 @@
 //            (one-sided edge crack; the height of the section taken as the diameter); breathing
 //            under its weight  g = (1 + cos(angle + phase - gravity))/2, after Gasch (1993), J.
 //            Sound Vib. 160(2) 313: open (g = 1) when the crack points along gravity.
+// In modes   the crack's hinge turns by phi, and bending there is k = sum of k_i q_i less phi. Without
+//            phi the moment is E I k; that phi itself sets free is (E I)^2 R phi with
+//            R = sum of k_i^2/w_i^2 over the modes that the model has (unit modal masses). Balance with
+//            the hinge, phi = c M, leaves a softening S g/(1 + S g R), S = c (E I)^2: frequencies then
+//            hardly depend on how many modes there are. S g alone, the first order in c, takes more
+//            stiffness away the more modes there are, and of a thick shaft all of it.
 // Thread     any; pure.
 
 #include <array>
@@ -27,6 +33,14 @@ namespace levitas::effect {
 [[nodiscard]] inline double Opening(double cosine, double sine, double gravity_direction_x,
                                     double gravity_direction_y) noexcept {
   return 0.5 * (1.0 + cosine * gravity_direction_x + sine * gravity_direction_y);
+}
+
+/// [N m^2] What a hinge of c (E I)^2 = `hinge_n_m2`, open by a share, takes away; `residual_per_n_m2`
+/// is R.
+[[nodiscard]] inline double CrackSoftening(double hinge_n_m2, double open,
+                                           double residual_per_n_m2) noexcept {
+  const double opened = hinge_n_m2 * open;
+  return opened / (1.0 + opened * residual_per_n_m2);
 }
 
 }  // namespace levitas::effect

@@ -60,6 +60,16 @@ void AddAnisotropy(const PlantModel& model, const Spin& spin, const double* posi
   }
 }
 
+/// R of effect/crack.hpp; rigid modes do not bend.
+double CurvatureCompliance(const PlantModel& model, const std::vector<double>& curvature) noexcept {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < curvature.size(); ++i) {
+    const double w = model.frequency()[i];
+    if (w > 0.0) sum += curvature[i] * curvature[i] / (w * w);
+  }
+  return sum;
+}
+
 void AddCrack(const PlantModel& model, const Crack& crack, const Spin& spin, const double* position,
               double* acceleration) noexcept {
   const double cosine = spin.cosine * crack.cosine - spin.sine * crack.sine;
@@ -67,7 +77,9 @@ void AddCrack(const PlantModel& model, const Crack& crack, const Spin& spin, con
   const double open =
       effect::Opening(cosine, sine, model.gravity_direction_x(), model.gravity_direction_y());
   const Pair bend = At(crack.curvature, position);
-  const double across = crack.softening_n_m2 * open * (cosine * bend.x + sine * bend.y);
+  const double softening = effect::CrackSoftening(crack.softening_n_m2, open,
+                                                  CurvatureCompliance(model, crack.curvature));
+  const double across = softening * (cosine * bend.x + sine * bend.y);
   Push(crack.curvature, across * cosine, across * sine, acceleration);
 }
 

@@ -7,6 +7,7 @@
 #include <complex>
 #include <numbers>
 
+#include "plant_sim/rotor/plane_shape.hpp"
 #include "tests/unit/diagnosis/moments.hpp"
 
 namespace levitas::diagnosis {
@@ -236,14 +237,22 @@ TEST_F(RotorTermsTest, ACrackIsOpenBelowClosedAboveAndSoftensAcrossItselfAlone) 
   const double below = std::arg(down);
   const std::complex<double> sag = 1e-5 * down;
   const double w2 = std::pow(TheRig().omega_rad_per_s[2], 2);
-  // Open: a twentieth of the stiffness is gone along the sag, none across it.
-  EXPECT_LT(std::abs(pointing(below, sag) - 0.05 * w2 * sag), 1e-5 * w2 * std::abs(sag));
+  // R of effect/crack.hpp over that of the first bending mode alone.
+  const auto bent = rotor::CurvatureAt(TheRig().model->parameters().modes, 228.6e-3);
+  double residual = 0.0;
+  for (std::size_t i = 2; i < modes_; ++i)
+    residual += std::pow(bent[i] / bent[2], 2) * w2 / std::pow(TheRig().omega_rad_per_s[i], 2);
+  const auto gone = [&](double opened) { return opened / (1.0 + opened * residual); };
+  // Open: a twentieth of the stiffness is gone along the sag, less what the modes yield of
+  // themselves, and none across it.
+  EXPECT_LT(std::abs(pointing(below, sag) - gone(0.05) * w2 * sag), 1e-3 * w2 * std::abs(sag));
   const std::complex<double> quarter{0.0, 1.0};
   EXPECT_LT(std::abs(pointing(below, quarter * sag)), 1e-6 * w2 * std::abs(sag));
   // Closed: nothing. To the side: half open, and nothing of a sag along the crack's edge.
   EXPECT_LT(std::abs(pointing(below + std::numbers::pi, sag)), 1e-6 * w2 * std::abs(sag));
-  EXPECT_LT(std::abs(pointing(below + kDirection, quarter * sag) - 0.025 * w2 * quarter * sag),
-            1e-5 * w2 * std::abs(sag));
+  EXPECT_LT(
+      std::abs(pointing(below + kDirection, quarter * sag) - gone(0.025) * w2 * quarter * sag),
+      1e-3 * w2 * std::abs(sag));
 }
 
 TEST_F(RotorTermsTest, AStaticLoadIsAForceOnItsAxis) {
