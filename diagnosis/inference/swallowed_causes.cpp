@@ -60,7 +60,8 @@ bool AddOne(const FileFits& fits, const EvidenceLandscape& landscape, const Judg
 }
 
 /// [nat] What is left with these causes, fitted from the point on under the observer of the
-/// landscape: a point that another observer led to pays for that until it is fitted anew.
+/// landscape: a point that another observer led to pays for that until it is fitted anew. Leaves
+/// the landscape linearised at the point.
 double FittedMisfit(ObservedLandscape& landscape, const SelectionRules& rules,
                     const std::vector<Hypothesis>& causes, const Point& point) {
   landscape.LineariseAt(point);
@@ -91,7 +92,8 @@ bool TakeOver(ObservedLandscape& landscape, const SelectionRules& rules, const J
 }
 
 /// A calibration that had lost its way, and not to a cause: the one from the file takes its place,
-/// where it fits better under the observer of the landscape, too, than what was found so far.
+/// where it fits better under the observer of the landscape, too, than what was found so far. That
+/// keeps its point, fitted or not: a slower observer, which sees more, may have led it there.
 void CalibrateAnew(ObservedLandscape& landscape, const SelectionRules& rules, const JointFit& anew,
                    CauseSelection& found) {
   const double before = std::min(landscape.MisfitOf(found.causes, found.point),

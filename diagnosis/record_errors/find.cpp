@@ -1,6 +1,7 @@
 #include "diagnosis/record_errors/find.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/each_in_parallel.hpp"
 #include "common/problem.hpp"
@@ -23,6 +24,7 @@ constexpr std::size_t kMostRows = 16'000;
 /// rig that is off its file.
 constexpr ObserverSpeed kObserver{0.003, 1e-5};
 constexpr Eigen::Index kFewestRows = 500;
+constexpr double kAlike = 0.05;  ///< rates that records show
 
 /// What law and plant tell, of columns whose positions are in metres.
 void FindInTheLoop(const RigView& rig, const Columns& columns, const SeenElsewhere& elsewhere,
@@ -46,25 +48,39 @@ void FindInTheLoop(const RigView& rig, const Columns& columns, const SeenElsewhe
   out.errors.insert(out.errors.end(), wiring.errors.begin(), wiring.errors.end());
 }
 
+/// [periods] What all records agree on that turn; else 0.
+double RateShownBy(const std::vector<RecordErrors>& found) {
+  double shown = 0.0;
+  for (const RecordErrors& turned : found) {
+    if (turned.rows_apart == 0.0) continue;
+    if (shown > 0.0 && std::abs(turned.rows_apart / shown - 1.0) > kAlike) return 0.0;
+    shown = turned.rows_apart;
+  }
+  return shown;
+}
+
 SeenElsewhere ShownBy(const std::vector<RecordErrors>& found) {
   SeenElsewhere out;
   const auto wired = std::ranges::find_if(found, [](const RecordErrors& errors) {
     return errors.has_test_signal && !(errors.wiring == ColumnUses{});
   });
   if (wired != found.end()) out.wiring = wired->wiring;
-  const auto turned = std::ranges::find_if(
-      found, [](const RecordErrors& errors) { return errors.rows_apart > 0.0; });
-  if (turned != found.end()) out.rows_apart = turned->rows_apart;
+  out.rows_apart = RateShownBy(found);
   return out;
 }
 
-/// Does the record say what others show to be something else, of which it knows less than they?
-bool IsUnsure(const RecordErrors& found, const SeenElsewhere& elsewhere) {
-  const bool wired = !(elsewhere.wiring == ColumnUses{}) && !found.has_test_signal &&
-                     !(found.wiring == elsewhere.wiring);
+/// Has the record another wiring than others show, of which it knows less than they?
+bool IsUnsureOfWiring(const RecordErrors& found, const SeenElsewhere& elsewhere) {
+  return !(elsewhere.wiring == ColumnUses{}) && !found.has_test_signal &&
+         !(found.wiring == elsewhere.wiring);
+}
+
+/// Does it state a rate by its plant alone, where another one turns?
+bool IsUnsureOfRate(const RecordErrors& found, const SeenElsewhere& elsewhere) {
+  const bool by_its_times = found.drifts || found.time_factor != 1.0;
   const bool says_rate = std::ranges::any_of(
       found.errors, [](const RecordError& error) { return error.kind == RecordErrorKind::kRate; });
-  return wired || (elsewhere.rows_apart > 0.0 && found.rows_apart == 0.0 && says_rate);
+  return elsewhere.rows_apart > 0.0 && found.rows_apart == 0.0 && says_rate && !by_its_times;
 }
 
 void LeaveGaps(const std::vector<std::uint64_t>& gaps, Record& record) {
@@ -145,8 +161,11 @@ std::vector<RecordErrors> FindErrorsOfRecords(const RigView& rig,
                   [&](std::size_t i) { found[i] = FindRecordErrors(rig, records[i], {}); });
   const SeenElsewhere elsewhere = ShownBy(found);
   for (std::size_t i = 0; i < records.size(); ++i) {
-    if (IsUnsure(found[i], elsewhere)) {
-      found[i] = FindRecordErrors(rig, records[i], elsewhere);
+    SeenElsewhere unsure_of;
+    if (IsUnsureOfWiring(found[i], elsewhere)) unsure_of.wiring = elsewhere.wiring;
+    if (IsUnsureOfRate(found[i], elsewhere)) unsure_of.rows_apart = elsewhere.rows_apart;
+    if (!(unsure_of == SeenElsewhere{})) {
+      found[i] = FindRecordErrors(rig, records[i], unsure_of);
     }
   }
   return found;

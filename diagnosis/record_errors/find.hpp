@@ -23,7 +23,9 @@ inline constexpr std::uint64_t kUnknownGap = 1000;  ///< cycles
 /// What other records of the rig and recorder show.
 struct SeenElsewhere {
   ColumnUses wiring;
-  double rows_apart{};  ///< RecordErrors::rows_apart
+  double rows_apart{};  ///< RecordErrors::rows_apart; 0 also where records disagree
+
+  [[nodiscard]] bool operator==(const SeenElsewhere&) const = default;
 };
 
 [[nodiscard]] RecordErrors FindRecordErrors(const RigView& rig, const Record& record,

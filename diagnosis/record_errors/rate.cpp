@@ -76,7 +76,8 @@ bool FindRateOfRotation(const RigView& rig, const Columns& columns, RecordErrors
   });
   if (factor <= 0.0 || known || std::abs(factor - 1.0) < kOffRotation) return false;
   const double rate_hz = 1.0 / rig.period_s;
-  out.rows_apart = factor;
+  const bool left_out = std::abs(factor - 1.0) > kLeftOut;
+  if (left_out) out.rows_apart = factor;
   out.errors.push_back(
       {RecordErrorKind::kRate,
        {"time"},
@@ -88,7 +89,7 @@ bool FindRateOfRotation(const RigView& rig, const Columns& columns, RecordErrors
        "record every sample; rows that are left out no map of columns brings back. Or the rig "
        "file's period, or the scale of the speed, if that is what is wrong",
        false});
-  return std::abs(factor - 1.0) > kLeftOut;
+  return left_out;
 }
 
 void FindRate(const RigView& rig, const Columns& columns, const std::vector<LawOfColumn>& laws,

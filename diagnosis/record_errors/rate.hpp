@@ -24,8 +24,8 @@ namespace levitas::diagnosis {
 
 void FindClock(const RigView& rig, const std::vector<double>& times_s, RecordErrors& out);
 
-/// True where rows are left out (the factor is far from 1), which law and plant cannot be in. Sets
-/// `rows_apart`.
+/// True where the factor is so far from 1 that rows are left out or made from others: neither law
+/// nor plant fit such rows. `rows_apart` is set then.
 bool FindRateOfRotation(const RigView& rig, const Columns& columns, RecordErrors& out);
 
 /// `left`: the sum over the axes of the logarithm of PlantFit::MeanSquares with the columns as

@@ -1,12 +1,12 @@
 // A transverse crack that breathes under the shaft's weight.
 //
-// Equation   bending moment at z is softened across the crack alone: S g (e . k) e on the curvature
-//            k, e = the crack's direction, which turns with the shaft, g = (1 + cos(angle between e
-//            and gravity))/2 its open share (Gasch 1993, J. Sound Vib. 160(2) 313). It therefore
-//            acts at 0, 1, 2 and 3 times the rotation at once: a softening without direction would
-//            have the first two only.
-// Family     plane z and direction at angle zero; theta is S over what would take away the whole
-//            stiffness of the first bending mode.
+// Equation   bending moment at z is softened across the crack alone: S g/(1 + S g R) (e . k) e on
+//            the curvature k, e = the crack's direction, which turns with the shaft, g = (1 + cos(
+//            angle between e and gravity))/2 its open share (Gasch 1993, J. Sound Vib. 160(2) 313),
+//            S and R as in effect/crack.hpp. A shallow one therefore acts at 0, 1, 2 and 3 times
+//            the rotation at once: a softening without direction would have the first two only.
+// Family     plane z and direction at angle zero; theta is S over what would, to first order, take
+//            away the whole stiffness of the first bending mode. It is not negative: no pole.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -45,13 +45,13 @@ std::vector<double> Curvature(const RigView& rig, double z_m) {
   return curvature;
 }
 
-/// [N m^2] S at theta = 1.
+/// [N m^3] S at theta = 1.
 double Reference(const RigView& rig, const std::vector<double>& curvature) {
   const double first = rig.omega_rad_per_s[2] / curvature[2];
   return first * first;
 }
 
-/// [1/(N m^2)] R of effect/crack.hpp.
+/// [1/(N m^3)] R of effect/crack.hpp.
 double CurvatureCompliance(const RigView& rig, const std::vector<double>& curvature) {
   double sum = 0.0;
   for (std::size_t i = 2; i < curvature.size(); ++i) {
@@ -91,6 +91,8 @@ Term Crack(const RigView& rig, double z_m, double direction_rad) {
                 AtPlane(z_m).Named(fmt::format("direction {:.1f} deg", degrees)), "softening", "1"},
                0.0, 0.05, soften);
   term.positive = true;
+  term.linear = false;
+  term.step = 1e-3;
   // Half the distance of the planes, and of directions that count from one whole turn on.
   term.family = {{z_m, direction_rad}, {0.1, 0.04}, [&rig](const Family::Shape& other) {
                    return Crack(rig, other[0], other[1]);

@@ -6,12 +6,12 @@
 //            (one-sided edge crack; the height of the section taken as the diameter); breathing
 //            under its weight  g = (1 + cos(angle + phase - gravity))/2, after Gasch (1993), J.
 //            Sound Vib. 160(2) 313: open (g = 1) when the crack points along gravity.
-// In modes   the crack's hinge turns by phi, and bending there is k = sum of k_i q_i less phi. Without
-//            phi the moment is E I k; that phi itself sets free is (E I)^2 R phi with
-//            R = sum of k_i^2/w_i^2 over the modes that the model has (unit modal masses). Balance with
-//            the hinge, phi = c M, leaves a softening S g/(1 + S g R), S = c (E I)^2: frequencies then
-//            hardly depend on how many modes there are. S g alone, the first order in c, takes more
-//            stiffness away the more modes there are, and of a thick shaft all of it.
+// In modes   the hinge turns by phi, of which the moment E I k (k = sum of k_i q_i) loses
+//            (E I)^2 R phi, R = sum of k_i^2/w_i^2 over the modes of the model (unit modal masses).
+//            With phi = c M a softening S g/(1 + S g R) is left, S = c (E I)^2
+//            (docs/derivations.md): frequencies hardly depend on the number of modes. S g alone,
+//            of first order in c, takes away the more the more modes there are, and of a thick
+//            shaft with a deep crack and many modes all.
 // Thread     any; pure.
 
 #include <array>
@@ -35,12 +35,11 @@ namespace levitas::effect {
   return 0.5 * (1.0 + cosine * gravity_direction_x + sine * gravity_direction_y);
 }
 
-/// [N m^2] What a hinge of c (E I)^2 = `hinge_n_m2`, open by a share, takes away; `residual_per_n_m2`
-/// is R.
-[[nodiscard]] inline double CrackSoftening(double hinge_n_m2, double open,
-                                           double residual_per_n_m2) noexcept {
-  const double opened = hinge_n_m2 * open;
-  return opened / (1.0 + opened * residual_per_n_m2);
+/// [N m^3] What a hinge of S = `hinge_n_m3`, open by a share, takes away; `residual_per_n_m3` is R.
+[[nodiscard]] inline double CrackSoftening(double hinge_n_m3, double open,
+                                           double residual_per_n_m3) noexcept {
+  const double opened = hinge_n_m3 * open;
+  return opened / (1.0 + opened * residual_per_n_m3);
 }
 
 }  // namespace levitas::effect

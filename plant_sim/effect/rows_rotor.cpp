@@ -92,8 +92,9 @@ constexpr std::array kRotorRows{
         Facts{.shows_in = Shows::kResponse, .modes = Modes::kOnTheRotor}},
     Row{Id::kBreathingCrack, "breathing_crack", Place::kRotor, Scope::kRig, kCrack,
         "a transverse crack opens and closes once per turn as the weight bends the shaft",
-        "softening c (E I)^2 k_x g(angle) of the curvature k across the crack, "
-        "g = (1 + cos(angle + phase - gravity))/2, c = 6 pi (1 - nu^2) d P(depth)/(E I)",
+        "softening S g/(1 + S g R) of the curvature across the crack, S = c (E I)^2, R = sum of "
+        "k_i^2/w_i^2 over the modes, g = (1 + cos(angle + phase - gravity))/2, "
+        "c = 6 pi (1 - nu^2) d P(depth)/(E I)",
         "lines at 1, 2 and 3 x rotation under a static load, side bands of resonances",
         "Gasch 1993, J. Sound Vib. 160(2) 313; compliance: Chondros, Dimarogonas & Yao 1998, "
         "J. Sound Vib. 215(1) 17",

@@ -60,7 +60,8 @@ void AddAnisotropy(const PlantModel& model, const Spin& spin, const double* posi
   }
 }
 
-/// R of effect/crack.hpp; rigid modes do not bend.
+/// [1/(N m^3)] R of effect/crack.hpp; rigid modes do not bend. Summed at every step, since an
+/// effect that comes with time may move the frequencies.
 double CurvatureCompliance(const PlantModel& model, const std::vector<double>& curvature) noexcept {
   double sum = 0.0;
   for (std::size_t i = 0; i < curvature.size(); ++i) {

@@ -2,8 +2,8 @@
 // A landscape of evidence with observers and one calibrated number, all of which a test makes.
 //
 // Number      of tolerance 1, healthy at 0, known to a thousandth: what a test says beyond 3 is
-//             surely far (Judging::moved_tolerances). It stays where a fit begins, unless a test says
-//             where it ends.
+//             surely far (Judging::moved_tolerances). It stays where a fit begins, unless a test
+//             says where it ends.
 // Observers   a test says under which speed, with which causes, the model or its sensitivities
 //             diverge, no fit follows, or how much is left of the readings (elsewhere 1).
 // Filter      behind it is left what `behind_filter` says; a test may say what the readings are
