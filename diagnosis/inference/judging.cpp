@@ -90,9 +90,8 @@ constexpr std::array<JudgingRow, 15> kTable{{
      "evidence, and lead over the next effect, from which a cause is suspected although a residual "
      "is left",
      "what counts as clear in the benchmark: a hidden effect of so much evidence is not unknown. "
-     "Of "
-     "14 drawn rigs outside the vocabulary none is suspected; a rub and a mode of the support that "
-     "leave a residual are (160033, 160032, 2026-12-01)",
+     "Of 14 drawn rigs outside the vocabulary none is suspected; a rub and a mode of the support "
+     "that leave a residual are (160033, 160032, 2026-12-01)",
      "--outside 20 --seeds 22 --size 2 --sweep suspected_nat=10,25,100"},
 }};
 

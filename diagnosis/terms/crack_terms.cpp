@@ -51,20 +51,11 @@ double Reference(const RigView& rig, const std::vector<double>& curvature) {
   return first * first;
 }
 
-/// [1/(N m^3)] R of effect/crack.hpp.
-double CurvatureCompliance(const RigView& rig, const std::vector<double>& curvature) {
-  double sum = 0.0;
-  for (std::size_t i = 2; i < curvature.size(); ++i) {
-    sum += std::pow(curvature[i] / rig.omega_rad_per_s[i], 2);
-  }
-  return sum;
-}
-
 /// `direction_rad` beyond a whole turn, so that shapes are positive.
 Term Crack(const RigView& rig, double z_m, double direction_rad) {
   const auto curvature = Curvature(rig, z_m);
   const double size = Reference(rig, curvature);
-  const double residual = CurvatureCompliance(rig, curvature);
+  const double residual = effect::CurvatureCompliance(curvature, rig.omega_rad_per_s);
   const double gx = rig.model->gravity_direction_x();
   const double gy = rig.model->gravity_direction_y();
   const double degrees = std::fmod(direction_rad, kTurn) * 360.0 / kTurn;

@@ -16,7 +16,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <vector>
 
 namespace levitas::effect {
 
@@ -33,6 +35,17 @@ namespace levitas::effect {
 [[nodiscard]] inline double Opening(double cosine, double sine, double gravity_direction_x,
                                     double gravity_direction_y) noexcept {
   return 0.5 * (1.0 + cosine * gravity_direction_x + sine * gravity_direction_y);
+}
+
+/// [1/(N m^3)] R: of every mode the curvature and the frequency [rad/s]; rigid modes have none.
+[[nodiscard]] inline double CurvatureCompliance(
+    const std::vector<double>& curvature, const std::vector<double>& frequency_rad_per_s) noexcept {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < curvature.size(); ++i) {
+    const double w = frequency_rad_per_s[i];
+    if (w > 0.0) sum += curvature[i] * curvature[i] / (w * w);
+  }
+  return sum;
 }
 
 /// [N m^3] What a hinge of S = `hinge_n_m3`, open by a share, takes away; `residual_per_n_m3` is R.

@@ -60,17 +60,6 @@ void AddAnisotropy(const PlantModel& model, const Spin& spin, const double* posi
   }
 }
 
-/// [1/(N m^3)] R of effect/crack.hpp; rigid modes do not bend. Summed at every step, since an
-/// effect that comes with time may move the frequencies.
-double CurvatureCompliance(const PlantModel& model, const std::vector<double>& curvature) noexcept {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < curvature.size(); ++i) {
-    const double w = model.frequency()[i];
-    if (w > 0.0) sum += curvature[i] * curvature[i] / (w * w);
-  }
-  return sum;
-}
-
 void AddCrack(const PlantModel& model, const Crack& crack, const Spin& spin, const double* position,
               double* acceleration) noexcept {
   const double cosine = spin.cosine * crack.cosine - spin.sine * crack.sine;
@@ -78,8 +67,9 @@ void AddCrack(const PlantModel& model, const Crack& crack, const Spin& spin, con
   const double open =
       effect::Opening(cosine, sine, model.gravity_direction_x(), model.gravity_direction_y());
   const Pair bend = At(crack.curvature, position);
-  const double softening = effect::CrackSoftening(crack.softening_n_m2, open,
-                                                  CurvatureCompliance(model, crack.curvature));
+  // Summed at every step: an effect that comes with time may move the frequencies.
+  const double residual = effect::CurvatureCompliance(crack.curvature, model.frequency());
+  const double softening = effect::CrackSoftening(crack.softening_n_m2, open, residual);
   const double across = softening * (cosine * bend.x + sine * bend.y);
   Push(crack.curvature, across * cosine, across * sine, acceleration);
 }
